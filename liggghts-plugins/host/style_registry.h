@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every style of ours announces itself with one static record; enter() hands all records to a LIGGGHTS instance.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+class LAMMPS;
+class Fix;
+class Compute;
+class Dump;
+class Pair;
+} // namespace LAMMPS_NS
+
+namespace eccentra::host {
+
+using FixCreator = LAMMPS_NS::Fix* (*)(LAMMPS_NS::LAMMPS*, int, char**);
+using ComputeCreator = LAMMPS_NS::Compute* (*)(LAMMPS_NS::LAMMPS*, int, int, char**);
+using DumpCreator = LAMMPS_NS::Dump* (*)(LAMMPS_NS::LAMMPS*, int, char**);
+using CommandCreator = void (*)(LAMMPS_NS::LAMMPS*, int, char**);
+using PairCreator = LAMMPS_NS::Pair* (*)(LAMMPS_NS::LAMMPS*);
+
+/// One style: the words a user types (for example "fix", "nve/cluster"), and a sentence for `eccentra-dem -h`.
+struct StyleRecord {
+  std::string kind;
+  std::string name;
+  std::string summary;
+  FixCreator fix = nullptr;
+  ComputeCreator compute = nullptr;
+  DumpCreator dump = nullptr;
+  CommandCreator command = nullptr;
+  PairCreator pair = nullptr;
+};
+
+/// All records of the process, in the order in which they were announced.
+std::vector<StyleRecord>& style_records();
+
+/// Announces a style when the library is loaded: one static object per style, beside the style's own code.
+struct RegisterStyle {
+  explicit RegisterStyle(StyleRecord record) { style_records().push_back(std::move(record)); }
+};
+
+/// Creator for a class with the usual constructor (LAMMPS*, int, char**).
+template <class Style, class Base> Base* create(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg) {
+  return new Style(lmp, narg, arg);
+}
+
+/// Announces a fix style.
+template <class Style> struct RegisterFix : RegisterStyle {
+  RegisterFix(const char* name, const char* summary)
+      : RegisterStyle({"fix", name, summary, &create<Style, LAMMPS_NS::Fix>}) {}
+};
+
+/// Announces a dump style.
+template <class Style> struct RegisterDump : RegisterStyle {
+  RegisterDump(const char* name, const char* summary)
+      : RegisterStyle({"dump", name, summary, nullptr, nullptr, &create<Style, LAMMPS_NS::Dump>}) {}
+};
+
+/// Announces words that reach LIGGGHTS by another way (contact models, sub-styles of pair gran), for the list in -h.
+struct RegisterWords : RegisterStyle {
+  RegisterWords(const char* kind, const char* name, const char* summary) : RegisterStyle({kind, name, summary}) {}
+};
+
+/// Makes all our styles known to this LIGGGHTS instance. Safe to call more than once. Stops all ranks with one sentence
+/// if the LIGGGHTS that loaded us is not the version that we were built against.
+void enter(LAMMPS_NS::LAMMPS* lmp);
+
+} // namespace eccentra::host

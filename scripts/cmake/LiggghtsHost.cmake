@@ -1,0 +1,44 @@
+# SPDX-FileCopyrightText: Eccentra contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The stock LIGGGHTS that Debian installs, as the interface target liggghts_host.
+find_package(MPI REQUIRED COMPONENTS CXX)
+find_path(LIGGGHTS_INCLUDE_DIR lammps.h PATH_SUFFIXES liggghts)
+find_library(LIGGGHTS_LIBRARY liggghts)
+find_program(LIGGGHTS_EXECUTABLE liggghts)
+if(NOT LIGGGHTS_INCLUDE_DIR OR NOT LIGGGHTS_LIBRARY OR NOT LIGGGHTS_EXECUTABLE)
+  message(FATAL_ERROR "LIGGGHTS is not installed: run scripts/setup (packages liggghts and libliggghts-dev)")
+endif()
+
+# The development package lacks the lists of contact models that contact_models.h includes: make them from the headers.
+set(_generated "${PROJECT_BINARY_DIR}/generated/liggghts")
+file(MAKE_DIRECTORY "${_generated}")
+foreach(_kind surface normal tangential cohesion rolling)
+  file(GLOB _models RELATIVE "${LIGGGHTS_INCLUDE_DIR}" "${LIGGGHTS_INCLUDE_DIR}/${_kind}_model_*.h")
+  list(FILTER _models EXCLUDE REGEX "_model_base\\.h$")
+  list(SORT _models)
+  set(_text "")
+  foreach(_model IN LISTS _models)
+    string(APPEND _text "#include \"${_model}\"\n")
+  endforeach()
+  if(_kind STREQUAL "rolling")
+    # Ours; each is empty until its own header is seen through liggghts-plugins/rolling.
+    string(APPEND _text "#include \"rolling/rolling_models.h\"\n")
+  endif()
+  file(CONFIGURE OUTPUT "${_generated}/style_${_kind}_model.h" CONTENT "${_text}" @ONLY)
+endforeach()
+file(CONFIGURE OUTPUT "${_generated}/style_contact_model.h" CONTENT "" @ONLY)
+
+# The version that we build against: the guard in host/ compares it with the one that loads us.
+execute_process(COMMAND ${CMAKE_COMMAND} -E env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+    ${LIGGGHTS_EXECUTABLE} -in /dev/null -log none
+  OUTPUT_VARIABLE _banner ERROR_QUIET WORKING_DIRECTORY "${PROJECT_BINARY_DIR}")
+if(NOT _banner MATCHES "LIGGGHTS-[A-Z]+ ([0-9]+\\.[0-9]+\\.[0-9]+)")
+  message(FATAL_ERROR "could not read the version that '${LIGGGHTS_EXECUTABLE}' prints: ${_banner}")
+endif()
+set(LIGGGHTS_VERSION "${CMAKE_MATCH_1}")
+message(STATUS "LIGGGHTS ${LIGGGHTS_VERSION} at ${LIGGGHTS_LIBRARY}")
+
+add_library(liggghts_host INTERFACE)
+target_include_directories(liggghts_host SYSTEM INTERFACE "${_generated}" "${LIGGGHTS_INCLUDE_DIR}")
+target_compile_definitions(liggghts_host INTERFACE OMPI_SKIP_MPICXX ECCENTRA_LIGGGHTS_VERSION="${LIGGGHTS_VERSION}")
+target_link_libraries(liggghts_host INTERFACE "${LIGGGHTS_LIBRARY}" MPI::MPI_CXX ${CMAKE_DL_LIBS})

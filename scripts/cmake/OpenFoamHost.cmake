@@ -1,0 +1,23 @@
+# SPDX-FileCopyrightText: Eccentra contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The stock OpenFOAM that Debian installs, as the interface target openfoam_host; its headers come from the source package.
+set(ECCENTRA_FOAM_HEADERS "${PROJECT_SOURCE_DIR}/build/openfoam-headers" CACHE PATH
+  "Folder of flat header folders that scripts/setup makes from the Debian source package")
+if(NOT EXISTS "${ECCENTRA_FOAM_HEADERS}/finiteVolume/lnInclude/fvCFD.H")
+  message(FATAL_ERROR "no OpenFOAM headers in ${ECCENTRA_FOAM_HEADERS}: run scripts/setup")
+endif()
+
+add_library(openfoam_host INTERFACE)
+# __restrict__: g++ 12 makes wrong numbers of OpenFOAM's in-place field operators with it; tests/openfoam guards this line.
+target_compile_definitions(openfoam_host INTERFACE
+  OPENFOAM=1912 WM_DP WM_LABEL_SIZE=32 NoRepository OMPI_SKIP_MPICXX "__restrict__=")
+target_compile_options(openfoam_host INTERFACE -ftemplate-depth-100 -pthread)
+foreach(_library OpenFOAM OSspecific/POSIX finiteVolume meshTools transportModels)
+  target_include_directories(openfoam_host SYSTEM INTERFACE "${ECCENTRA_FOAM_HEADERS}/${_library}/lnInclude")
+endforeach()
+target_include_directories(openfoam_host SYSTEM INTERFACE "${ECCENTRA_FOAM_HEADERS}/transportModels")
+foreach(_library finiteVolume meshTools incompressibleTransportModels OpenFOAM Pstream)
+  find_library(FOAM_${_library}_LIBRARY ${_library} REQUIRED)
+  target_link_libraries(openfoam_host INTERFACE "${FOAM_${_library}_LIBRARY}")
+endforeach()
+target_link_libraries(openfoam_host INTERFACE MPI::MPI_CXX ${CMAKE_DL_LIBS} m)

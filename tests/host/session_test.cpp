@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// LIGGGHTS runs in a test process with our styles: a sphere falls freely by the closed form.
+#include "support/liggghts_session.h"
+
+#include <gtest/gtest.h>
+
+using eccentra::test::LiggghtsSession;
+
+TEST(Session, SphereFallsFreely) {
+  LiggghtsSession session;
+  session.script(R"(
+    atom_style granular
+    boundary p p p
+    newton off
+    communicate single vel yes
+    units si
+    region box block 0 1 0 1 0 1 units box
+    create_box 1 box
+    neighbor 0.01 bin
+    fix m1 all property/global youngsModulus peratomtype 5e6
+    fix m2 all property/global poissonsRatio peratomtype 0.3
+    fix m3 all property/global coefficientRestitution peratomtypepair 1 0.9
+    fix m4 all property/global coefficientFriction peratomtypepair 1 0.5
+    pair_style gran model hertz tangential history
+    pair_coeff * *
+    timestep 1e-5
+    fix gravity all gravity 9.81 vector 0 0 -1
+    create_atoms 1 single 0.5 0.5 0.9 units box
+    set group all diameter 0.01 density 2500
+    fix integrate all nve/sphere
+    run 1000
+  )");
+  const int i = session.local(1);
+  if (i >= 0) {
+    const double t = 1000 * 1e-5;
+    EXPECT_NEAR(session.atom().v[i][2], -9.81 * t, 1e-12);
+  }
+}
