@@ -24,10 +24,10 @@ struct MassProperties {
   Eigen::Matrix3d inertia_per_mass; ///< about the centre [m2]
 };
 
-/// An immutable shape. The body frame has its origin at the centre of mass and its axes along the principal axes, so that
-/// the inertia is diagonal; a particle's orientation quaternion (w x y z) turns body into world.
+/// An immutable shape. The body frame has its origin at the centre of mass and its axes along the principal axes, so
+/// that the inertia is diagonal; a particle's orientation quaternion (w x y z) turns body into world.
 class ClusterShape {
-public:
+ public:
   /// Takes spheres in any frame and the mass properties in that same frame, and turns both into the body frame.
   ClusterShape(std::string name, std::vector<Sphere> spheres, const MassProperties& properties);
 
@@ -40,12 +40,12 @@ public:
   double surface() const { return surface_; } ///< of the union [m2]
   /// Principal moments of inertia per unit mass [m2], in the order of the body axes.
   const Eigen::Vector3d& inertia_per_mass() const { return inertia_per_mass_; }
-  double equivalent_radius() const;                             ///< radius of the sphere of equal volume, eq (34) [m]
-  double bounding_radius() const { return bounding_radius_; }   ///< about the centre of mass [m]
-  double smallest_radius() const { return smallest_radius_; }   ///< of the surface sub-spheres [m]
-  double sphericity() const;                                    ///< eq (5) [-]
+  double equivalent_radius() const;                           ///< radius of the sphere of equal volume, eq (34) [m]
+  double bounding_radius() const { return bounding_radius_; } ///< about the centre of mass [m]
+  double smallest_radius() const { return smallest_radius_; } ///< of the surface sub-spheres [m]
+  double sphericity() const;                                  ///< eq (5) [-]
 
-private:
+ private:
   std::string name_;
   std::vector<Sphere> spheres_;
   std::vector<int> surface_spheres_;
