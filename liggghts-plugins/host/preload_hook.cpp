@@ -14,6 +14,7 @@
 
 #include <dlfcn.h>
 
+#include <cstdio>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -24,6 +25,13 @@ namespace {
 template <class Function> Function next_definition(const char* mangled_name) {
   return reinterpret_cast<Function>(dlsym(RTLD_NEXT, mangled_name));
 }
+
+/// LIGGGHTS prints its error and calls MPI_Abort, which throws away what a pipe or file has not yet been given: a job's
+/// log would end without the reason. By whole lines, nothing is lost.
+struct LineBufferedOutput {
+  LineBufferedOutput() { std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ); }
+};
+const LineBufferedOutput line_buffered_output;
 
 } // namespace
 

@@ -6,6 +6,13 @@ set(ECCENTRA_FOAM_HEADERS "${PROJECT_SOURCE_DIR}/build/openfoam-headers" CACHE P
 if(NOT EXISTS "${ECCENTRA_FOAM_HEADERS}/finiteVolume/lnInclude/fvCFD.H")
   message(FATAL_ERROR "no OpenFOAM headers in ${ECCENTRA_FOAM_HEADERS}: run scripts/setup")
 endif()
+# Headers of another version than the installed library's compile, and then crash.
+file(STRINGS "${ECCENTRA_FOAM_HEADERS}/version" _headers_version LIMIT_COUNT 1)
+execute_process(COMMAND dpkg-query -W -f "\${source:Version}" libopenfoam OUTPUT_VARIABLE _library_version ERROR_QUIET)
+if(NOT "${_headers_version}" STREQUAL "${_library_version}")
+  message(FATAL_ERROR "the OpenFOAM headers in ${ECCENTRA_FOAM_HEADERS} are of version '${_headers_version}', the installed "
+    "library is of version '${_library_version}': run scripts/setup, which fetches the headers that match")
+endif()
 
 add_library(openfoam_host INTERFACE)
 # __restrict__: g++ 12 makes wrong numbers of OpenFOAM's in-place field operators with it; tests/openfoam guards this line.

@@ -19,7 +19,7 @@ namespace eccentra::test {
 
 /// Quiet by default; set ECCENTRA_TEST_VERBOSE in the environment to see what LIGGGHTS prints.
 class LiggghtsSession {
-public:
+ public:
   LiggghtsSession();
   ~LiggghtsSession();
   LiggghtsSession(const LiggghtsSession&) = delete;
@@ -37,7 +37,7 @@ public:
   int rank() const;
   int ranks() const;
 
-private:
+ private:
   std::unique_ptr<LAMMPS_NS::LAMMPS> lammps_;
 };
 

@@ -29,7 +29,9 @@ LiggghtsSession::LiggghtsSession() {
 
 LiggghtsSession::~LiggghtsSession() = default;
 
-void LiggghtsSession::command(const std::string& line) { lammps_->input->one(line.c_str()); }
+void LiggghtsSession::command(const std::string& line) {
+  lammps_->input->one(line.c_str());
+}
 
 void LiggghtsSession::script(const std::string& lines) {
   std::istringstream stream(lines);

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How libeccentra enters LIGGGHTS: by the launcher, by preloading, and not at all into another version.
+#include "support/run_program.h"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+
+namespace {
+
+using namespace eccentra::test;
+
+const std::string minimal_script = R"(atom_style granular
+boundary p p p
+newton off
+communicate single vel yes
+units si
+region box block 0 1 0 1 0 1 units box
+create_box 1 box
+neighbor 0.01 bin
+fix m1 all property/global youngsModulus peratomtype 5e6
+fix m2 all property/global poissonsRatio peratomtype 0.3
+fix m3 all property/global coefficientRestitution peratomtypepair 1 0.9
+fix m4 all property/global coefficientFriction peratomtypepair 1 0.5
+pair_style gran model hertz tangential history
+pair_coeff * *
+timestep 1e-5
+create_atoms 1 single 0.5 0.5 0.9 units box
+set group all diameter 0.01 density 2500
+fix integrate all nve/sphere
+run 10
+)";
+
+std::string launcher() {
+  return required_environment("ECCENTRA_BIN") + "/eccentra-dem";
+}
+
+int count(const std::string& text, const std::string& part) {
+  int found = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size()))
+    ++found;
+  return found;
+}
+
+TEST(Launcher, HelpNamesStylesAndVersions) {
+  const ProgramResult help = run_program({launcher(), "-h"});
+  EXPECT_EQ(help.status, 0);
+  EXPECT_TRUE(std::regex_search(help.output, std::regex(R"(eccentra-dem \d+\.\d+\.\d+ for LIGGGHTS-PUBLIC 3\.8\.0)")))
+      << help.output;
+  EXPECT_EQ(run_program({launcher(), "--version"}).output, help.output);
+}
+
+TEST(Launcher, EveryListedFixIsKnownToLiggghts) {
+  const ProgramResult help = run_program({launcher(), "-h"});
+  const std::regex fix_line(R"(\n  fix +(\S+))");
+  int fixes = 0;
+  for (std::sregex_iterator match(help.output.begin(), help.output.end(), fix_line), end; match != end; ++match) {
+    ++fixes;
+    const std::string style = match->str(1);
+    const auto folder = fresh_folder("listed");
+    write_file(folder / "in.x", minimal_script + "fix probe all " + style + "\nrun 1\n");
+    const ProgramResult run = run_program({launcher(), "-in", "in.x", "-log", "none"}, {folder, {}, 20});
+    EXPECT_EQ(run.output.find("Invalid fix style"), std::string::npos) << style << "\n" << run.output;
+    EXPECT_EQ(run.signal, 0) << style << "\n" << run.output;
+  }
+  RecordProperty("fixes", fixes);
+  // What LIGGGHTS says of a style that nobody knows: without it the loop above could not fail.
+  const auto folder = fresh_folder("unlisted");
+  write_file(folder / "in.x", minimal_script + "fix probe all no/such/style\nrun 1\n");
+  const ProgramResult run = run_program({launcher(), "-in", "in.x", "-log", "none"}, {folder, {}, 20});
+  EXPECT_NE(run.output.find("Invalid fix style"), std::string::npos) << run.output;
+}
+
+TEST(Preload, StockProgramRunsWithTheLibrary) {
+  const auto folder = fresh_folder("preload");
+  write_file(folder / "in.x", minimal_script);
+  const std::string preload = "LD_PRELOAD=" + preload_of_eccentra();
+  const ProgramResult run = run_program({"liggghts", "-in", "in.x", "-log", "none"}, {folder, {preload}, 30});
+  EXPECT_EQ(run.status, 0) << run.output;
+  // And it is the library that answers: a fix of ours is known to the stock program only when it is loaded.
+  const ProgramResult help = run_program({launcher(), "-h"});
+  std::smatch match;
+  if (!std::regex_search(help.output, match, std::regex(R"(\n  fix +(\S+))")))
+    GTEST_SKIP() << "this build has no fix style of ours";
+  write_file(folder / "in.y", minimal_script + "fix probe all " + match.str(1) + "\nrun 1\n");
+  const ProgramResult with = run_program({"liggghts", "-in", "in.y", "-log", "none"}, {folder, {preload}, 30});
+  const ProgramResult without = run_program({"liggghts", "-in", "in.y", "-log", "none"}, {folder, {}, 30});
+  EXPECT_EQ(with.output.find("Invalid fix style"), std::string::npos) << with.output;
+  EXPECT_NE(without.output.find("Invalid fix style"), std::string::npos) << without.output;
+}
+
+TEST(Preload, WorksUnderMpirun) {
+  const auto folder = fresh_folder("preload-mpirun");
+  write_file(folder / "in.x", minimal_script);
+  const ProgramResult run =
+      run_program({"mpirun", "--oversubscribe", "--bind-to", "none", "-np", "2", "-x",
+                   "LD_PRELOAD=" + preload_of_eccentra(), "liggghts", "-in", "in.x", "-log", "none"},
+                  {folder, {}, 60});
+  EXPECT_EQ(run.status, 0) << run.output;
+  EXPECT_NE(run.output.find("Loop time"), std::string::npos) << run.output;
+}
+
+/// libeccentra_other_version.so: the same entry code, told at build time that it was built against 9.9.9.
+TEST(VersionGuard, RefusesAnotherLiggghtsWithOneSentence) {
+  const auto folder = fresh_folder("guard");
+  write_file(folder / "in.x", minimal_script);
+  std::string preload = preload_of_eccentra();
+  preload.replace(preload.rfind('/') + 1, std::string::npos, "libeccentra_other_version.so");
+  const ProgramResult run =
+      run_program({"liggghts", "-in", "in.x", "-log", "none"}, {folder, {"LD_PRELOAD=" + preload}, 30});
+  EXPECT_NE(run.status, 0) << run.output;
+  EXPECT_EQ(run.signal, 0) << run.output;
+  EXPECT_EQ(count(run.output, "ERROR"), 1) << run.output;
+  EXPECT_EQ(count(run.output, "built against LIGGGHTS-PUBLIC 9.9.9"), 1) << run.output;
+  EXPECT_NE(run.output.find("scripts/setup"), std::string::npos) << "the sentence names the remedy\n" << run.output;
+  EXPECT_EQ(run.output.find("Loop time"), std::string::npos) << "it must not run\n" << run.output;
+}
+
+} // namespace

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// scripts/setup on machines that lack something: one sentence each, nothing half done, nothing done twice.
+#include "support/run_program.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace {
+
+using namespace eccentra::test;
+namespace fs = std::filesystem;
+
+/// A copy of the script in a clone of its own, with commands in front of the system's that play a broken machine.
+class Setup : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder = fresh_folder(testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder / "scripts");
+    fs::copy_file(required_environment("ECCENTRA_SOURCE") + "/scripts/setup", folder / "scripts/setup");
+    fs::copy_file(required_environment("ECCENTRA_SOURCE") + "/CMakePresets.json", folder / "CMakePresets.json");
+    put_in_front("sudo", "while [ $# -gt 0 ]; do case $1 in -n) shift;; *) break;; esac; done; exec \"$@\"");
+  }
+
+  void put_in_front(const std::string& command, const std::string& script) {
+    write_file(folder / "front" / command, "#!/bin/bash\n" + script + "\n");
+    fs::permissions(folder / "front" / command, fs::perms::owner_all);
+  }
+
+  void headers_are_there() {
+    const ProgramResult version = run_program({"dpkg-query", "-W", "-f", "${source:Version}", "libopenfoam"});
+    write_file(folder / "build/openfoam-headers/version", version.output + "\n");
+  }
+
+  ProgramResult setup(std::vector<std::string> options, std::vector<std::string> environment = {}) {
+    environment.push_back("PATH=" + (folder / "front").string() + ":" + required_environment("PATH"));
+    options.insert(options.begin(), (folder / "scripts/setup").string());
+    return run_program(options, {folder, environment, 60});
+  }
+
+  /// Fails, with exactly one line that starts as an error and holds every word.
+  static void expect_one_sentence(const ProgramResult& run, const std::vector<std::string>& words) {
+    EXPECT_EQ(run.status, 1) << run.output;
+    std::string error;
+    std::size_t errors = 0;
+    for (std::size_t start = 0; start < run.output.size();) {
+      const auto end = std::min(run.output.find('\n', start), run.output.size());
+      const std::string line = run.output.substr(start, end - start);
+      if (line.rfind("setup: error: ", 0) == 0) {
+        error = line;
+        ++errors;
+      } else {
+        EXPECT_EQ(line.rfind("setup: ", 0), 0U) << "noise beside the sentence: " << line;
+      }
+      start = end + 1;
+    }
+    EXPECT_EQ(errors, 1U) << run.output;
+    for (const std::string& word : words)
+      EXPECT_NE(error.find(word), std::string::npos) << "'" << word << "' is missing in: " << error;
+  }
+
+  fs::path folder;
+};
+
+TEST_F(Setup, SecondRunAsksAptForNothing) {
+  headers_are_there();
+  put_in_front("apt-get", "echo \"$@\" >>'" + (folder / "apt-calls").string() + "'; exit 100");
+  const ProgramResult run = setup({"--packages-only"});
+  EXPECT_EQ(run.status, 0) << run.output;
+  EXPECT_FALSE(fs::exists(folder / "apt-calls"));
+  EXPECT_EQ(run.output, "");
+}
+
+TEST_F(Setup, AnotherDistribution) {
+  write_file(folder / "os-release", "ID=fedora\nVERSION_ID=41\n");
+  expect_one_sentence(setup({}, {"ECCENTRA_OS_RELEASE=" + (folder / "os-release").string()}),
+                      {"fedora 41", "Debian 12", "container"});
+  expect_one_sentence(setup({}, {"ECCENTRA_OS_RELEASE=/nowhere"}), {"unknown", "Debian 12"});
+}
+
+TEST_F(Setup, PackagesWithoutNetwork) {
+  headers_are_there();
+  put_in_front("dpkg-query", "/usr/bin/dpkg-query \"$@\" | grep -v '^liggghts-doc '");
+  put_in_front("apt-get", "echo 'W: Failed to fetch'; echo 'E: Unable to locate package liggghts-doc'; exit 100");
+  expect_one_sentence(setup({"--packages-only"}),
+                      {"packages could not be installed", "Unable to locate", "network", "log"});
+}
+
+TEST_F(Setup, HeadersWithoutNetwork) {
+  put_in_front(
+      "apt-get",
+      "case $* in *indextargets*) exec /usr/bin/apt-get \"$@\";; esac; echo 'E: Could not resolve host'; exit 100");
+  expect_one_sentence(setup({"--packages-only"}), {"openfoam=", "Could not resolve host", "network"});
+  EXPECT_FALSE(fs::exists(folder / "build/openfoam-headers")) << "half-made headers would be taken for whole ones";
+}
+
+TEST_F(Setup, NoDebianArchive) {
+  put_in_front("apt-get", "case $* in *indextargets*) exit 0;; esac; exit 100");
+  expect_one_sentence(setup({"--packages-only"}), {"Debian archive", "apt-get update"});
+}
+
+TEST_F(Setup, UnknownWords) {
+  expect_one_sentence(setup({"--preset", "fast"}), {"'fast'", "release, portable or sanitize"});
+  expect_one_sentence(setup({"--fast"}), {"'--fast'", "--help"});
+  expect_one_sentence(setup({"--preset"}), {"--preset"});
+  EXPECT_EQ(setup({"--help"}).status, 0);
+}
+
+TEST_F(Setup, HeadersOfAnotherVersionAreRefused) {
+  write_file(folder / "headers/finiteVolume/lnInclude/fvCFD.H", "");
+  write_file(folder / "headers/version", "1906.191111-1\n");
+  const ProgramResult run =
+      run_program({"cmake", "-S", required_environment("ECCENTRA_SOURCE"), "-B", (folder / "b").string(),
+                   "-DECCENTRA_FOAM_HEADERS=" + (folder / "headers").string()},
+                  {folder, {}, 60});
+  EXPECT_NE(run.status, 0) << run.output;
+  EXPECT_NE(run.output.find("'1906.191111-1'"), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("run scripts/setup"), std::string::npos) << run.output;
+}
+
+} // namespace
