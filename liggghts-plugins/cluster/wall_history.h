@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tangential history of wall contacts: as many entries per atom as it has contacts, packed for migration and restart.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace eccentra::cluster {
+
+/// Names one contact of an atom with a wall fix: sub-sphere, mesh and triangle (0 and 0 for a primitive wall).
+/// Exactly representable in a double, in which it travels.
+class WallContactKey {
+ public:
+  static constexpr int kMaxSubSpheres = 1 << 14;
+  static constexpr int kMaxMeshes = 1 << 7;
+
+  WallContactKey() = default;
+  WallContactKey(int sub, int mesh, int triangle)
+      : value_((static_cast<std::int64_t>(triangle) * kMaxMeshes + mesh) * kMaxSubSpheres + sub) {}
+  explicit WallContactKey(double packed) : value_(static_cast<std::int64_t>(packed)) {}
+
+  double packed() const { return static_cast<double>(value_); }
+  int sub() const { return static_cast<int>(value_ % kMaxSubSpheres); }
+  int mesh() const { return static_cast<int>(value_ / kMaxSubSpheres % kMaxMeshes); }
+  int triangle() const { return static_cast<int>(value_ / kMaxSubSpheres / kMaxMeshes); }
+  bool operator==(const WallContactKey& other) const { return value_ == other.value_; }
+
+ private:
+  std::int64_t value_ = 0;
+};
+
+struct WallHistoryEntry {
+  WallContactKey key;
+  Eigen::Vector3d shear; ///< tangential displacement [m], world frame
+};
+
+/// Rows are local atoms. Packed form of an atom: number of doubles that follow, then (key, shear x y z) per contact.
+class WallHistory {
+ public:
+  using Entries = std::vector<WallHistoryEntry>;
+
+  void grow(int atoms) { of_atom_.resize(atoms); }
+  Entries& operator[](int i) { return of_atom_[i]; }
+  void move(int from, int to) {
+    if (from != to)
+      of_atom_[to] = std::move(of_atom_[from]);
+  }
+  int packed_size(int i) const { return 1 + kDoublesPerEntry * static_cast<int>(of_atom_[i].size()); }
+  int pack(int i, double* buffer) const {
+    int m = 0;
+    buffer[m++] = packed_size(i) - 1;
+    for (const WallHistoryEntry& entry : of_atom_[i]) {
+      buffer[m++] = entry.key.packed();
+      for (int k = 0; k < 3; ++k)
+        buffer[m++] = entry.shear[k];
+    }
+    return m;
+  }
+  int unpack(int i, const double* buffer) {
+    int m = 0;
+    const int end = 1 + static_cast<int>(buffer[m++]);
+    of_atom_[i].clear();
+    while (m < end) {
+      const WallContactKey key(buffer[m++]);
+      const Eigen::Vector3d shear(buffer[m], buffer[m + 1], buffer[m + 2]);
+      m += 3;
+      of_atom_[i].push_back({key, shear});
+    }
+    return m;
+  }
+  /// Doubles of the largest atom.
+  int largest() const {
+    std::size_t most = 0;
+    for (const Entries& entries : of_atom_)
+      most = std::max(most, entries.size());
+    return 1 + kDoublesPerEntry * static_cast<int>(most);
+  }
+  double memory() const {
+    double bytes = 0;
+    for (const Entries& entries : of_atom_)
+      bytes += sizeof(Entries) + entries.capacity() * sizeof(WallHistoryEntry);
+    return bytes;
+  }
+
+ private:
+  static constexpr int kDoublesPerEntry = 4;
+  std::vector<Entries> of_atom_;
+};
+
+} // namespace eccentra::cluster

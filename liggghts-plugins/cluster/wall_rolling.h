@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rolling friction at walls: one interface, in which a model sees the spin relative to the wall, however the wall
+// turns.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+class LAMMPS;
+}
+
+namespace eccentra::cluster {
+
+/// One contact as a rolling model sees it. World frame, SI.
+struct WallRollingContact {
+  int atom;                         ///< local index
+  int atom_type;                    ///< material of the particle
+  int wall_type;                    ///< material of the wall
+  double elastic_normal;            ///< kn overlap [N]
+  double lever;                     ///< effective radius of eq (19): of the (sub-)sphere [m]
+  Eigen::Vector3d normal;           ///< unit, from the wall to the particle
+  Eigen::Vector3d angular_velocity; ///< of the particle relative to the wall [rad/s]
+};
+
+/// A rolling-friction model at walls.
+class WallRolling {
+ public:
+  virtual ~WallRolling() = default;
+  /// Consumes this model's own words from words[at] on and advances `at`; leaves what it does not know.
+  virtual void read_words(const std::vector<std::string>& words, std::size_t& at) = 0;
+  /// Before each run: fetch coefficients.
+  virtual void init(LAMMPS_NS::LAMMPS* lmp) = 0;
+  /// Torque on the particle [N m]. Called once per contact and step.
+  virtual Eigen::Vector3d torque(const WallRollingContact& contact) = 0;
+};
+
+using WallRollingCreator = std::function<std::unique_ptr<WallRolling>()>;
+
+/// Models by the word that follows rolling_friction.
+std::map<std::string, WallRollingCreator>& wall_rolling_models();
+
+/// Announces a model when the library is loaded: one static object beside the model's code.
+struct RegisterWallRolling {
+  RegisterWallRolling(const char* word, WallRollingCreator creator) {
+    wall_rolling_models()[word] = std::move(creator);
+  }
+};
+
+} // namespace eccentra::cluster

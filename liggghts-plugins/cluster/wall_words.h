@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a user types after `fix ID group wall/gran/cluster`, as data.
+#pragma once
+
+#include "cluster/wall_rolling.h"
+#include "cluster/wall_surface.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace eccentra::cluster {
+
+struct WallWords {
+  bool shared = false;                  ///< contacts shared (else parallel)
+  bool limit_force = false;             ///< limitForce
+  bool tangential_damping = true;       ///< tangential_damping
+  std::unique_ptr<WallRolling> rolling; ///< null: rolling_friction off
+  std::optional<WallSurface> surface;   ///< primitive wall
+  int type = 0;                         ///< material of a primitive wall
+  std::vector<std::string> meshes;      ///< ids of fixes mesh/surface; empty for a primitive wall
+};
+
+/// Reads all words. Throws std::invalid_argument with one sentence that names the word, its value and the remedy.
+WallWords read_wall_words(const std::vector<std::string>& words);
+
+} // namespace eccentra::cluster
