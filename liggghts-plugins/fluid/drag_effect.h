@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Drag on every particle, implicit in its own slip: eq (20)-(23) with any drag law and any rheology.
+#pragma once
+
+#include "fluid/effect.h"
+#include "fluid/implicit_step.h"
+#include "fluid/particle_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace eccentra::fluid {
+
+/// Fluid fraction below which a drag law is evaluated at this value: beyond random close packing no law was measured.
+/// Only the law's argument is limited; no volume is lost.
+constexpr double kDragFractionFloor = 0.3;
+
+template <class Stress, class Law> class DragEffect : public Effect {
+ public:
+  DragEffect(const char* name, const Rheology& fluid) : name_(name), stress_(fluid), density_(fluid.density) {}
+
+  const char* name() const override { return name_; }
+  const char* slot() const override { return "drag"; }
+  unsigned needs() const override { return kVelocity | kFraction; }
+  void prepare(const ParticleGeometry& geometry) override {
+    laws_.clear();
+    for (int kind = 0; kind < geometry.kinds(); ++kind)
+      laws_.emplace_back(geometry.factors(kind));
+  }
+
+  void apply(const Kick& kick) override {
+    double sum[3] = {0.0, 0.0, 0.0};
+    for (int i = 0; i < kick.count; ++i) {
+      if (!(kick.mask[i] & kick.group))
+        continue;
+      const double d = 2.0 * kick.radius[i];
+      const double fraction = std::clamp(kick.samples.fraction[i], kDragFractionFloor, 1.0);
+      const auto law = laws_[kick.kind[i]].in(fraction);
+      const Resistance<Stress, std::decay_t<decltype(law)>> drag{stress_, law, kPi / 8.0 * d * d, d, density_};
+      const double compliance = kick.compliance(i);
+      double slip[3], free[3], f[3];
+      double slip2 = 0.0, free2 = 0.0;
+      for (int k = 0; k < 3; ++k) {
+        slip[k] = kick.samples.velocity[i][k] - kick.velocity[i][k];
+        free[k] = slip[k] - compliance * kick.force[i][k];
+        slip2 += slip[k] * slip[k];
+        free2 += free[k] * free[k];
+      }
+      if (!(free2 > 0.0))
+        continue;
+      const double free_speed = std::sqrt(free2);
+      const ImplicitSlip step = implicit_slip(drag, free_speed, compliance, std::sqrt(slip2));
+      // What is exchanged is the force that was really given, so the fluid receives exactly what the particle lost. Its
+      // linearisation is the answer of the stepped particle to the fluid's velocity: at most m/interval, also at rest.
+      const double coefficient = step.resistance / free_speed;
+      for (int k = 0; k < 3; ++k) {
+        f[k] = coefficient * free[k];
+        sum[k] += f[k];
+      }
+      kick.exchange(i, f, coefficient);
+      if (kick.mask[i] & kick.frozen)
+        continue;
+      for (int k = 0; k < 3; ++k)
+        kick.force[i][k] = step.speed == 0.0 ? slip[k] / compliance : kick.force[i][k] + f[k];
+    }
+    std::copy(sum, sum + 3, total_);
+  }
+
+ private:
+  const char* name_;
+  Stress stress_;
+  double density_;
+  std::vector<Law> laws_;
+};
+
+} // namespace eccentra::fluid

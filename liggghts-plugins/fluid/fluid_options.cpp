@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reads the words of `fix fluid/force` and builds its effects.
+#include "fluid/fluid_options.h"
+
+#include "fluid/body_forces.h"
+#include "fluid/drag_effect.h"
+#include "fluid/drag_laws.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace eccentra::fluid {
+
+namespace {
+
+using DragMaker = std::unique_ptr<Effect> (*)(const char*, const Rheology&);
+
+template <class Law> std::unique_ptr<Effect> make_drag(const char* name, const Rheology& fluid) {
+  if (fluid.newtonian())
+    return std::make_unique<DragEffect<NewtonianStress, Law>>(name, fluid);
+  return std::make_unique<DragEffect<HerschelBulkleyStress, Law>>(name, fluid);
+}
+
+struct DragEntry {
+  const char* name;
+  DragMaker make;
+};
+
+/// Every drag law that a script can name.
+constexpr DragEntry kDragLaws[] = {
+    {"chien", &make_drag<Chien>},
+};
+
+[[noreturn]] void fail(const std::string& text) {
+  throw std::invalid_argument(text);
+}
+
+/// Reads words one after the other, with the keyword at hand for messages.
+class WordReader {
+ public:
+  explicit WordReader(const std::vector<std::string>& words) : words_(words) {}
+  bool more() const { return next_ < words_.size(); }
+  const std::string& keyword() { return keyword_ = words_[next_++]; }
+  const std::string& word(const char* expected) {
+    if (!more())
+      fail("keyword '" + keyword_ + "' is the last word: " + expected + " must follow");
+    return words_[next_++];
+  }
+  double number(const char* name) {
+    const std::string what = "keyword '" + keyword_ + "' (" + name + ")";
+    return read_number(word(name), what);
+  }
+  bool on_off() {
+    const std::string& value = word("on or off");
+    if (value == "on")
+      return true;
+    if (value != "off" && value != "none")
+      fail("keyword '" + keyword_ + "' has '" + value + "': write on or off");
+    return false;
+  }
+  bool at_number() const {
+    if (!more())
+      return false;
+    char* end = nullptr;
+    std::strtod(words_[next_].c_str(), &end);
+    return end != words_[next_].c_str() && *end == '\0';
+  }
+
+ private:
+  const std::vector<std::string>& words_;
+  std::size_t next_ = 0;
+  std::string keyword_;
+};
+
+double positive(double value, const std::string& what) {
+  if (!(value > 0.0))
+    fail(what + " is " + std::to_string(value) + ": it must be greater than 0");
+  return value;
+}
+
+void read_rheology(WordReader& reader, Rheology& fluid) {
+  const std::string model = reader.word("herschel_bulkley TAU0 K N, power_law K N or newtonian MU");
+  fluid.yield_stress = 0.0;
+  fluid.index = 1.0;
+  if (model == "herschel_bulkley") {
+    fluid.yield_stress = reader.number("TAU0 K N");
+    if (fluid.yield_stress < 0.0)
+      fail("the yield stress TAU0 of 'rheology' is " + std::to_string(fluid.yield_stress) +
+           " Pa: it must be 0 or more");
+  } else if (model != "power_law" && model != "newtonian") {
+    fail("'rheology' has '" + model + "': write herschel_bulkley TAU0 K N, power_law K N or newtonian MU");
+  }
+  if (model == "newtonian") {
+    fluid.consistency = positive(reader.number("MU"), "the viscosity MU [Pa s] of 'rheology'");
+    return;
+  }
+  fluid.consistency = positive(reader.number("K N"), "the consistency K [Pa s^n] of 'rheology'");
+  fluid.index = positive(reader.number("N"), "the flow index N of 'rheology'");
+}
+
+void read_sphericity(WordReader& reader, FluidOptions& options, int atom_types) {
+  options.sphericity.clear();
+  while (options.sphericity.empty() || reader.at_number()) {
+    const double phi = reader.number("PHI, 0 < PHI <= 1");
+    if (!(phi > 0.0 && phi <= 1.0))
+      fail("'sphericity' has " + std::to_string(phi) + ": it must be greater than 0 and at most 1");
+    options.sphericity.push_back(phi);
+  }
+  const std::size_t count = options.sphericity.size();
+  if (count != 1 && count != std::size_t(atom_types))
+    fail("'sphericity' has " + std::to_string(count) + " values: give one, or one for each of the " +
+         std::to_string(atom_types) + " atom types");
+}
+
+const DragEntry* find_drag(const std::string& name) {
+  for (const DragEntry& entry : kDragLaws)
+    if (name == entry.name)
+      return &entry;
+  return nullptr;
+}
+
+} // namespace
+
+double read_number(const std::string& word, const std::string& what) {
+  char* end = nullptr;
+  const double value = std::strtod(word.c_str(), &end);
+  if (end == word.c_str() || *end != '\0' || !std::isfinite(value))
+    fail(what + " has '" + word + "': a finite number is needed");
+  return value;
+}
+
+std::string drag_law_names() {
+  std::string names;
+  for (const DragEntry& entry : kDragLaws)
+    names += std::string(entry.name) + "|";
+  return names + "none";
+}
+
+FluidOptions read_fluid_options(const std::vector<std::string>& words, int atom_types) {
+  FluidOptions options;
+  WordReader reader(words);
+  while (reader.more()) {
+    const std::string keyword = reader.keyword();
+    if (keyword == "rheology") {
+      read_rheology(reader, options.rheology);
+    } else if (keyword == "density") {
+      options.rheology.density = positive(reader.number("RHO"), "the fluid's 'density' [kg/m3]");
+    } else if (keyword == "drag") {
+      options.drag = reader.word(drag_law_names().c_str());
+      if (options.drag != "none" && !find_drag(options.drag))
+        fail("'drag' has '" + options.drag + "': write " + drag_law_names());
+    } else if (keyword == "buoyancy") {
+      options.buoyancy = reader.on_off();
+    } else if (keyword == "pressure_gradient") {
+      options.pressure_gradient = reader.on_off();
+    } else if (keyword == "viscous_stress") {
+      options.viscous_stress = reader.on_off();
+    } else if (keyword == "sphericity") {
+      read_sphericity(reader, options, atom_types);
+    } else {
+      fail("unknown word '" + keyword +
+           "': known are rheology, density, drag, buoyancy, pressure_gradient, viscous_stress, sphericity");
+    }
+  }
+  if (options.rheology.consistency == 0.0)
+    fail("the word 'rheology' is missing: add rheology herschel_bulkley TAU0 K N");
+  if (options.rheology.density == 0.0)
+    fail("the word 'density' is missing: add density RHO, the fluid's density in kg/m3");
+  return options;
+}
+
+EffectList make_effects(const FluidOptions& options) {
+  const Rheology& fluid = options.rheology;
+  EffectList effects;
+  if (options.buoyancy)
+    effects.push_back(std::make_unique<BodyForce<BuoyancyField>>(fluid));
+  if (options.pressure_gradient)
+    effects.push_back(std::make_unique<BodyForce<PressureField>>(fluid));
+  if (options.viscous_stress)
+    effects.push_back(std::make_unique<BodyForce<StressField>>(fluid));
+  if (const DragEntry* entry = find_drag(options.drag))
+    effects.push_back(entry->make(entry->name, fluid));
+  return effects;
+}
+
+} // namespace eccentra::fluid

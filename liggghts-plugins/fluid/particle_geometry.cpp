@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Implements ParticleGeometry on LIGGGHTS's atoms.
+#include "fluid/particle_geometry.h"
+
+#include <mpi.h>
+
+#include "atom.h"
+#include "lammps.h"
+
+namespace eccentra::fluid {
+
+void ParticleGeometry::init() {}
+
+void ParticleGeometry::refresh() {}
+
+const double* ParticleGeometry::radius() const {
+  return lmp_->atom->radius;
+}
+
+const int* ParticleGeometry::kind() const {
+  return lmp_->atom->type;
+}
+
+int ParticleGeometry::kinds() const {
+  return lmp_->atom->ntypes + 1;
+}
+
+ShapeFactors ParticleGeometry::factors(int kind) const {
+  ShapeFactors shape;
+  shape.sphericity = sphericity_.size() == 1 ? sphericity_[0] : sphericity_[kind > 0 ? kind - 1 : 0];
+  return shape;
+}
+
+double ParticleGeometry::radius_of(int i) const {
+  return lmp_->atom->radius[i];
+}
+
+} // namespace eccentra::fluid

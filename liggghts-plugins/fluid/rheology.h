@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The fluid as a particle feels it: stress scale, Reynolds and Bingham numbers of a Herschel-Bulkley fluid, eq (23).
+#pragma once
+
+#include <cmath>
+
+namespace eccentra::fluid {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// Weight of the Bingham number in eq (23) (Ansley & Smith 1967).
+constexpr double kAnsleySmith = 7.0 * kPi / 24.0;
+
+/// Herschel-Bulkley parameters: tau = yield_stress + consistency * rate^index. SI.
+struct Rheology {
+  double yield_stress = 0.0; ///< tau0 [Pa], >= 0
+  double consistency = 0.0;  ///< k [Pa s^n], > 0; the viscosity where index is 1
+  double index = 1.0;        ///< n [-], > 0
+  double density = 0.0;      ///< rho_f [kg/m3], > 0
+
+  bool newtonian() const { return yield_stress == 0.0 && index == 1.0; }
+};
+
+/// A function of one speed and its derivative.
+struct ValueAndSlope {
+  double value;
+  double slope;
+};
+
+/// Stress that the flow around a particle works against at a shear rate U/d: X = k rate^n + (7 pi/24) tau0 [Pa].
+/// Eq (23) is Re_HB = rho U^2 / X, and the viscosity that the particle meets is X / rate. Finite at rest.
+struct HerschelBulkleyStress {
+  double yield;       ///< (7 pi/24) tau0 [Pa]
+  double consistency; ///< k [Pa s^n]
+  double index;       ///< n [-]
+
+  explicit HerschelBulkleyStress(const Rheology& fluid)
+      : yield(kAnsleySmith * fluid.yield_stress), consistency(fluid.consistency), index(fluid.index) {}
+
+  double at_rest() const { return yield; }
+  /// rate > 0 [1/s]; the slope is dX/d rate [Pa s].
+  ValueAndSlope operator()(double rate) const {
+    const double viscous = consistency * std::pow(rate, index);
+    return {yield + viscous, index * viscous / rate};
+  }
+};
+
+/// The same for tau0 = 0, n = 1: no power to evaluate.
+struct NewtonianStress {
+  double viscosity; ///< [Pa s]
+
+  explicit NewtonianStress(const Rheology& fluid) : viscosity(fluid.consistency) {}
+
+  double at_rest() const { return 0.0; }
+  ValueAndSlope operator()(double rate) const { return {viscosity * rate, viscosity}; }
+};
+
+/// Re_PL = rho U^(2-n) d^n / k.
+inline double reynolds_power_law(const Rheology& f, double speed, double diameter) {
+  return f.density * std::pow(speed, 2.0 - f.index) * std::pow(diameter, f.index) / f.consistency;
+}
+
+/// Bi = (tau0/k) (d/U)^n.
+inline double bingham(const Rheology& f, double speed, double diameter) {
+  return f.yield_stress / f.consistency * std::pow(diameter / speed, f.index);
+}
+
+/// Re_HB of eq (23) = Re_PL / (1 + (7 pi/24) Bi), written without division by zero; 0 at rest.
+inline double reynolds_herschel_bulkley(const Rheology& f, double speed, double diameter) {
+  if (!(speed > 0.0))
+    return 0.0;
+  return f.density * speed * speed / HerschelBulkleyStress(f)(speed / diameter).value;
+}
+
+/// Viscosity that a particle of this diameter meets at this slip speed: rho U d / Re_HB [Pa s]; speed > 0.
+inline double particle_viscosity(const Rheology& f, double speed, double diameter) {
+  const double rate = speed / diameter;
+  return HerschelBulkleyStress(f)(rate).value / rate;
+}
+
+} // namespace eccentra::fluid
