@@ -17,9 +17,9 @@ namespace eccentra::test {
 
 LiggghtsSession::LiggghtsSession() {
   const bool verbose = std::getenv("ECCENTRA_TEST_VERBOSE") != nullptr;
-  std::vector<std::string> words = {"liggghts", "-log", "none"};
+  std::vector<std::string> words = {"liggghts", "-log", "/dev/null"};
   if (!verbose)
-    words.insert(words.end(), {"-screen", "none"});
+    words.insert(words.end(), {"-screen", "/dev/null"});
   std::vector<char*> arguments;
   for (std::string& word : words)
     arguments.push_back(word.data());
