@@ -103,6 +103,7 @@ ClusterShape::ClusterShape(std::string name, std::vector<Sphere> spheres, const 
   for (int k = 0; k < 3; ++k)
     if (std::abs(origin[k]) < negligible_offset * size)
       origin[k] = 0;
+  given_centre_ = origin;
   bounding_radius_ = 0;
   for (Sphere& s : spheres_) {
     s.centre = axes * (s.centre - origin);

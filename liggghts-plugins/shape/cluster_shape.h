@@ -38,6 +38,8 @@ class ClusterShape {
   const std::vector<int>& surface_spheres() const { return surface_spheres_; }
   double volume() const { return volume_; }   ///< of the union [m3]
   double surface() const { return surface_; } ///< of the union [m2]
+  /// Centre of mass in the frame in which the spheres were given (in the body frame it is the origin) [m].
+  const Eigen::Vector3d& given_centre() const { return given_centre_; }
   /// Principal moments of inertia per unit mass [m2], in the order of the body axes.
   const Eigen::Vector3d& inertia_per_mass() const { return inertia_per_mass_; }
   double equivalent_radius() const;                           ///< radius of the sphere of equal volume, eq (34) [m]
@@ -51,6 +53,7 @@ class ClusterShape {
   std::vector<int> surface_spheres_;
   double volume_;
   double surface_;
+  Eigen::Vector3d given_centre_;
   Eigen::Vector3d inertia_per_mass_;
   double bounding_radius_;
   double smallest_radius_;

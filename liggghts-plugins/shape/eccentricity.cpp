@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Statistics of delta_e over evenly spread directions, with the extremes sought out from the best samples.
+#include "shape/eccentricity.h"
+
+#include "shape/directions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+namespace eccentra::shape {
+namespace {
+
+constexpr int direction_count = 50000;      ///< mean good to 1e-4, spacing of directions 0.016 rad
+constexpr int cluster_pair_count = 20000;   ///< mean good to 2e-3
+constexpr int surface_point_count = 400000; ///< over all spheres, before the covered ones are dropped
+/// Search for an extreme: starts, the first step [rad], and where it ends [rad].
+constexpr int search_starts = 24;
+constexpr double first_step = 0.02, last_step = 1e-9;
+constexpr int directions_per_step = 12;
+
+/// Sub-spheres that can be touched, as arrays for the inner loops.
+struct Touchable {
+  Eigen::Matrix3Xd centre;
+  Eigen::ArrayXd radius;
+  explicit Touchable(const ClusterShape& shape)
+      : centre(3, shape.surface_spheres().size()), radius(shape.surface_spheres().size()) {
+    for (std::size_t k = 0; k < shape.surface_spheres().size(); ++k) {
+      const Sphere& s = shape.spheres()[shape.surface_spheres()[k]];
+      centre.col(k) = s.centre;
+      radius[k] = s.radius;
+    }
+  }
+};
+
+double plane_eccentricity(const Touchable& t, const Eigen::Vector3d& normal) {
+  int touched = 0;
+  ((t.centre.transpose() * normal).array() + t.radius).maxCoeff(&touched);
+  return t.centre.col(touched).cross(normal).norm();
+}
+
+double sphere_eccentricity(const Touchable& t, const Eigen::Vector3d& direction, double radius) {
+  double farthest = -std::numeric_limits<double>::max(), result = 0;
+  for (int k = 0; k < t.radius.size(); ++k) {
+    const double along = t.centre.col(k).dot(direction), across2 = t.centre.col(k).squaredNorm() - along * along;
+    const double reach = t.radius[k] + radius, rest = reach * reach - across2;
+    if (rest <= 0)
+      continue;
+    const double distance = along + std::sqrt(rest);
+    if (distance > farthest) {
+      farthest = distance;
+      result = std::sqrt(std::max(0.0, across2)) * distance / reach; // |c x (distance u - c)| / reach
+    }
+  }
+  return result;
+}
+
+/// Walks from `start` to where `value` is largest, by steps in turning directions that shrink when none leads higher.
+template <typename Value> double climb(const Value& value, Eigen::Vector3d start, double best) {
+  int turn = 0;
+  for (double step = first_step; step > last_step;) {
+    const Eigen::Vector3d side = start.unitOrthogonal(), up = start.cross(side);
+    bool higher = false;
+    for (int k = 0; k < directions_per_step && !higher; ++k) {
+      const double angle = 2 * M_PI * k / directions_per_step + turn;
+      const Eigen::Vector3d trial = (start + step * (std::cos(angle) * side + std::sin(angle) * up)).normalized();
+      const double found = value(trial);
+      if (found > best) {
+        best = found;
+        start = trial;
+        higher = true;
+      }
+    }
+    ++turn;
+    step *= higher ? 1.5 : 0.5;
+    step = std::min(step, first_step);
+  }
+  return best;
+}
+
+/// Largest value over the sphere, from the best of the samples taken at the Fibonacci directions.
+template <typename Value> double largest(const Value& value, const std::vector<double>& samples, double sign) {
+  std::vector<int> order(samples.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto middle = order.begin() + std::min<std::size_t>(search_starts, order.size());
+  std::partial_sort(order.begin(), middle, order.end(),
+                    [&](int a, int b) { return sign * samples[a] > sign * samples[b]; });
+  double best = -std::numeric_limits<double>::max();
+  for (auto it = order.begin(); it != middle; ++it)
+    best =
+        std::max(best, climb(value, fibonacci_direction(*it, static_cast<int>(samples.size())), sign * samples[*it]));
+  return sign * best;
+}
+
+template <typename Value> EccentricityDistribution over_directions(const Value& value) {
+  std::vector<double> samples(direction_count);
+  for (int k = 0; k < direction_count; ++k)
+    samples[k] = value(fibonacci_direction(k, direction_count));
+  const double high = largest(value, samples, 1);
+  const double low = largest([&](const Eigen::Vector3d& n) { return -value(n); }, samples, -1);
+  return {std::move(samples), low, high};
+}
+
+} // namespace
+
+EccentricityDistribution::EccentricityDistribution(std::vector<double> samples, double least, double largest)
+    : sorted_(std::move(samples)) {
+  std::sort(sorted_.begin(), sorted_.end());
+  min_ = std::min(least, sorted_.front());
+  max_ = std::max(largest, sorted_.back());
+  mean_ = std::accumulate(sorted_.begin(), sorted_.end(), 0.0) / static_cast<double>(sorted_.size());
+}
+
+double EccentricityDistribution::quantile(double probability) const {
+  if (probability <= 0)
+    return min_;
+  if (probability >= 1)
+    return max_;
+  const double place = probability * static_cast<double>(sorted_.size()) - 0.5;
+  const std::size_t below = static_cast<std::size_t>(std::max(0.0, std::floor(place)));
+  const std::size_t above = std::min(below + 1, sorted_.size() - 1);
+  const double part = std::clamp(place - static_cast<double>(below), 0.0, 1.0);
+  return (1 - part) * sorted_[below] + part * sorted_[above];
+}
+
+EccentricityDistribution eccentricity_plane(const ClusterShape& shape) {
+  const Touchable t(shape);
+  const double unit = shape.equivalent_radius();
+  return over_directions([&](const Eigen::Vector3d& n) { return plane_eccentricity(t, n) / unit; });
+}
+
+EccentricityDistribution eccentricity_sphere(const ClusterShape& shape, double radius) {
+  if (!(radius > 0) || !std::isfinite(radius))
+    throw std::invalid_argument("the radius of the sphere that a shape meets must be a number greater than 0");
+  const Touchable t(shape);
+  const double unit = shape.equivalent_radius();
+  return over_directions([&](const Eigen::Vector3d& n) { return sphere_eccentricity(t, n, radius) / unit; });
+}
+
+EccentricityDistribution eccentricity_surface(const ClusterShape& shape) {
+  const std::vector<Sphere>& spheres = shape.spheres();
+  const double unit = shape.equivalent_radius();
+  double total = 0;
+  for (const int k : shape.surface_spheres())
+    total += spheres[k].radius * spheres[k].radius;
+  std::vector<double> samples;
+  for (const int k : shape.surface_spheres()) {
+    const Sphere& self = spheres[k];
+    std::vector<Sphere> neighbours; // inner spheres, too, cover what faces them
+    for (std::size_t j = 0; j < spheres.size(); ++j) {
+      const double distance = (spheres[j].centre - self.centre).norm();
+      if (distance > 0 && distance < self.radius + spheres[j].radius)
+        neighbours.push_back(spheres[j]);
+    }
+    const int count = static_cast<int>(std::lround(surface_point_count * self.radius * self.radius / total));
+    for (int p = 0; p < count; ++p) {
+      const Eigen::Vector3d n = fibonacci_direction(p, count), point = self.centre + self.radius * n;
+      const bool free = std::none_of(neighbours.begin(), neighbours.end(), [&](const Sphere& other) {
+        return (point - other.centre).squaredNorm() < other.radius * other.radius;
+      });
+      if (free)
+        samples.push_back(self.centre.cross(n).norm() / unit);
+    }
+  }
+  if (samples.empty())
+    throw std::invalid_argument("shape '" + shape.name() + "' has no surface that can be sampled");
+  const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
+  const double least = *low, most = *high;
+  return {std::move(samples), least, most};
+}
+
+EccentricityDistribution eccentricity_cluster(const ClusterShape& shape, const ClusterShape& other) {
+  const Touchable a(shape), b(other);
+  const double unit = shape.equivalent_radius();
+  std::vector<double> samples(cluster_pair_count);
+  for (int s = 0; s < cluster_pair_count; ++s) {
+    const DirectionAndRotation way = even_direction_and_rotation(s);
+    const Eigen::Matrix3Xd turned = way.rotation.toRotationMatrix() * b.centre;
+    double farthest = -std::numeric_limits<double>::max();
+    for (int i = 0; i < a.radius.size(); ++i)
+      for (int j = 0; j < b.radius.size(); ++j) {
+        // Centres meet at `reach` when the other cluster's centre of mass is at distance * direction.
+        const Eigen::Vector3d offset = a.centre.col(i) - turned.col(j);
+        const double along = offset.dot(way.direction), reach = a.radius[i] + b.radius[j];
+        const double rest = reach * reach - offset.squaredNorm() + along * along;
+        if (rest <= 0 || along + std::sqrt(rest) <= farthest)
+          continue;
+        farthest = along + std::sqrt(rest);
+        samples[s] = a.centre.col(i).cross(farthest * way.direction - offset).norm() / (reach * unit);
+      }
+  }
+  const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
+  const double least = *low, most = *high;
+  return {std::move(samples), least, most};
+}
+
+} // namespace eccentra::shape
