@@ -21,7 +21,7 @@ if(ECCENTRA_NATIVE)
 endif()
 if(ECCENTRA_SANITIZE)
   target_compile_options(eccentra_options INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer
-    -fno-sanitize-recover=undefined)
+    -fno-sanitize-recover=undefined -Wno-maybe-uninitialized) # g++ 12 warns of std::regex's own members there
   target_link_options(eccentra_options INTERFACE -fsanitize=address,undefined)
 endif()
 target_include_directories(eccentra_options INTERFACE
