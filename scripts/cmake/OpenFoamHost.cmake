@@ -18,7 +18,9 @@ add_library(openfoam_host INTERFACE)
 # __restrict__: g++ 12 makes wrong numbers of OpenFOAM's in-place field operators with it; tests/openfoam guards this line.
 target_compile_definitions(openfoam_host INTERFACE
   OPENFOAM=1912 WM_DP WM_LABEL_SIZE=32 NoRepository OMPI_SKIP_MPICXX "__restrict__=")
-target_compile_options(openfoam_host INTERFACE -ftemplate-depth-100 -pthread)
+# -ftrapping-math: OpenFOAM traps floating-point errors, so a guarded division must not be computed speculatively. Name
+# openfoam_host after eccentra_options, whose opposite would otherwise win.
+target_compile_options(openfoam_host INTERFACE -ftemplate-depth-100 -pthread -ftrapping-math)
 foreach(_library OpenFOAM OSspecific/POSIX finiteVolume meshTools transportModels)
   target_include_directories(openfoam_host SYSTEM INTERFACE "${ECCENTRA_FOAM_HEADERS}/${_library}/lnInclude")
 endforeach()

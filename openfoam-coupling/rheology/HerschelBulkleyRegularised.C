@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Eq (4) of herschel_bulkley.h as a viscosity model that any incompressible solver can select.
+#include "yieldStressViscosity.H"
+
+#include "addToRunTimeSelectionTable.H"
+#include "surfaceFields.H"
+
+namespace Foam {
+namespace viscosityModels {
+
+class HerschelBulkleyRegularised : public yieldStressViscosity {
+ public:
+  TypeName("HerschelBulkleyRegularised");
+
+  HerschelBulkleyRegularised(const word& name, const dictionary& transportProperties, const volVectorField& U,
+                             const surfaceScalarField& phi)
+      : yieldStressViscosity(name, typeName, transportProperties, U, phi) {
+    initialise();
+  }
+
+ protected:
+  void evaluate(const eccentra::rheology::HerschelBulkley& kinematic, scalarField& rate) const override {
+    for (scalar& value : rate) {
+      value = eccentra::rheology::regularised_viscosity(kinematic, value);
+    }
+  }
+};
+
+defineTypeNameAndDebug(HerschelBulkleyRegularised, 0);
+addToRunTimeSelectionTable(viscosityModel, HerschelBulkleyRegularised, dictionary);
+
+} // namespace viscosityModels
+} // namespace Foam

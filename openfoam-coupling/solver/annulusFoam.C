@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// annulusFoam: flow of a generalised-Newtonian fluid in an annulus (or any other mesh), alone or with particles.
+#include "averagedFlow.H"
+#include "flowProgress.H"
+#include "inputError.H"
+#include "timeStepControl.H"
+
+#include "Time.H"
+#include "argList.H"
+#include "fvMesh.H"
+
+using namespace Foam;
+
+namespace {
+
+void run(const argList& args) {
+  if (!args.checkRootCase()) {
+    throw inputError("no case in " + args.path() + ": give its folder with -case, or change into it");
+  }
+  Time runTime(Time::controlDictName, args);
+  fvMesh mesh(IOobject(fvMesh::defaultRegion, runTime.timeName(), runTime, IOobject::MUST_READ));
+  averagedFlow flow(mesh, averagedFlow::particles::none);
+  timeStepControl timeStep(runTime);
+  flowProgress progress(runTime, flow, args.found("verbose"));
+  while (runTime.run()) {
+    timeStep.adjust(flow.CourantNo());
+    ++runTime;
+    progress.silence();
+    flow.advance();
+    progress.report();
+    runTime.write();
+  }
+  progress.summary();
+}
+
+} // namespace
+
+int main(int argc, char* argv[]) {
+  argList::addNote("Flow of a Herschel-Bulkley fluid in an annulus, alone or with particles");
+  argList::noBanner();
+  argList::addBoolOption("verbose", "print the residuals of every linear solve");
+  const argList args(argc, argv);
+  runReportingErrors("annulusFoam", [&] { run(args); });
+  return 0;
+}

@@ -1,0 +1,361 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One time step of the locally averaged equations: momentum predictor, consistent pressure corrections, what is held
+// back.
+#include "averagedFlow.H"
+
+#include "adjustPhi.H"
+#include "constrainHbyA.H"
+#include "constrainPressure.H"
+#include "fvcCurl.H"
+#include "fvcDdt.H"
+#include "fvcDiv.H"
+#include "fvcFlux.H"
+#include "fvcGrad.H"
+#include "fvcLaplacian.H"
+#include "fvcMeshPhi.H"
+#include "fvcSnGrad.H"
+#include "fvcSurfaceIntegrate.H"
+#include "fvmDdt.H"
+#include "fvmDiv.H"
+#include "fvmLaplacian.H"
+#include "fvmSup.H"
+#include "inputError.H"
+#include "zeroGradientFvPatchFields.H"
+
+#include <chrono>
+
+namespace Foam {
+
+namespace {
+
+// The names under which stock pimpleFoam looks its schemes up: one fvSchemes serves both solvers.
+const char* const convectionScheme = "div(phi,U)";
+const char* const stressScheme = "div((nuEff*dev2(T(grad(U)))))";
+const char* const diffusionScheme = "laplacian(nuEff,U)";
+
+// A solid volume that changes by more than this share of the section within one step is no round-off.
+const scalar solidVolumeTolerance = 1e-8;
+
+/// Adds the seconds of its life to a sum.
+class stopwatch {
+ public:
+  explicit stopwatch(scalar& sum) : sum_(sum), start_(std::chrono::steady_clock::now()) {}
+  ~stopwatch() { sum_ += std::chrono::duration<scalar>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  scalar& sum_;
+  const std::chrono::steady_clock::time_point start_;
+};
+
+IOobject input(const char* name, const fvMesh& mesh) {
+  return IOobject(name, mesh.time().timeName(), mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE);
+}
+
+IOobject state(const char* name, const fvMesh& mesh) {
+  return IOobject(name, mesh.time().timeName(), mesh, IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE);
+}
+
+IOobject scratch(const char* name, const fvMesh& mesh) {
+  return IOobject(name, mesh.time().timeName(), mesh);
+}
+
+scalar readDensity(const dictionary& transportProperties) {
+  const dimensionedScalar rho("rho", dimDensity, transportProperties);
+  if (!(rho.value() > 0)) {
+    throw inputError(transportProperties, "rho", rho.value(), "give the density of the fluid, above 0 kg/m3");
+  }
+  return rho.value();
+}
+
+/// Gives the field both old levels, so that the second-order scheme finds them and a restart writes them.
+template <class Field> void keepOldTimes(const Field& field) {
+  field.oldTime().oldTime();
+}
+
+} // namespace
+
+averagedFlow::coupledFields::coupledFields(const fvMesh& mesh, const surfaceScalarField& phi)
+    : alpha(state("alpha", mesh), mesh, dimensionedScalar("initial", dimless, 1),
+            zeroGradientFvPatchScalarField::typeName),
+      exchange(scratch("exchange", mesh), mesh, dimensionedScalar("initial", dimless / dimTime, 0),
+               zeroGradientFvPatchScalarField::typeName),
+      particleForce(scratch("particleForce", mesh), mesh, dimensionedVector(dimAcceleration, Zero),
+                    zeroGradientFvPatchVectorField::typeName),
+      withheld(state("withheldForce", mesh), mesh, dimensionedVector(dimAcceleration, Zero),
+               zeroGradientFvPatchVectorField::typeName),
+      alphaf("alphaf", fvc::interpolate(alpha)), alphaPhi("alphaPhi", alphaf * phi),
+      imbalance(scratch("imbalance", mesh), mesh, dimensionedScalar("initial", dimless / dimTime, 0)) {
+  keepOldTimes(alpha);
+}
+
+averagedFlow::averagedFlow(fvMesh& mesh, particles presence, stressShare share)
+    : mesh_(mesh), pimple_(mesh), share_(share), U_(input("U", mesh), mesh), p_(input("p", mesh), mesh),
+      phi_(state("phi", mesh), fvc::flux(U_)),
+      coupled_(presence == particles::coupled ? new coupledFields(mesh, phi_) : nullptr), fluid_(U_, phi_),
+      rho_(readDensity(fluid_)), drive_(mesh, rho_) {
+  keepOldTimes(U_);
+  keepOldTimes(phi_);
+  mesh_.setFluxRequired(p_.name());
+  if (p_.needReference()) {
+    // The level of the pressure is arbitrary here; one cell of the whole mesh fixes it.
+    pRefCell_ = Pstream::master() ? pimple_.dict().getOrDefault<label>("pRefCell", 0) : -1;
+    pRefValue_ = pimple_.dict().getOrDefault<scalar>("pRefValue", 0);
+  }
+}
+
+averagedFlow::coupledFields& averagedFlow::fields(const char* what) {
+  return const_cast<coupledFields&>(static_cast<const averagedFlow&>(*this).fields(what));
+}
+
+const averagedFlow::coupledFields& averagedFlow::fields(const char* what) const {
+  if (!coupled_.valid()) {
+    throw inputError(std::string("a single-phase flow has no ") + what + ": construct it with particles::coupled");
+  }
+  return coupled_();
+}
+
+volScalarField& averagedFlow::alpha() {
+  return fields("fluid fraction").alpha;
+}
+volVectorField& averagedFlow::particleForce() {
+  return fields("particle force").particleForce;
+}
+volScalarField& averagedFlow::exchange() {
+  return fields("exchange coefficient").exchange;
+}
+const volVectorField& averagedFlow::withheldForce() const {
+  return fields("withheld force").withheld;
+}
+
+void averagedFlow::resetFractionHistory() {
+  volScalarField& present = alpha();
+  present.correctBoundaryConditions();
+  present.oldTime() == present;
+  present.oldTime().oldTime() == present;
+  coupled_->alphaf = fvc::interpolate(present);
+  coupled_->alphaPhi = coupled_->alphaf * phi_;
+}
+
+void averagedFlow::advance() {
+  drive_.update();
+  if (coupled_.valid()) {
+    checkSolidVolume();
+    coupled_->alphaf = fvc::interpolate(coupled_->alpha);
+  }
+  while (pimple_.loop()) {
+    tmp<fvVectorMatrix> tUEqn = momentumMatrix();
+    fvVectorMatrix& UEqn = tUEqn.ref();
+    predictVelocity(UEqn);
+    while (pimple_.correct()) {
+      correctPressure(UEqn);
+    }
+    drive_.correct(U_, coupled_.valid() ? &coupled_->alpha : nullptr);
+    if (pimple_.turbCorr()) {
+      const stopwatch watch(cost_.rheology);
+      fluid_.correct();
+    }
+  }
+  if (coupled_.valid()) {
+    storeWithheldForce();
+  }
+}
+
+void averagedFlow::checkSolidVolume() const {
+  if (!p_.needReference()) {
+    return;
+  }
+  const scalar change = gSum(fvc::ddt(coupled_->alpha)().primitiveField() * mesh_.V().field()) *
+                        mesh_.time().deltaTValue() / gSum(mesh_.V().field());
+  if (mag(change) > solidVolumeTolerance) {
+    std::ostringstream text;
+    text
+        << "the fluid fraction of a closed or periodic section changed by " << change
+        << " of its volume in one step, at t = " << mesh_.time().timeName()
+        << " s: an incompressible fluid cannot make room; keep the volume of the particles constant or open a boundary";
+    throw inputError(text.str());
+  }
+}
+
+tmp<fvVectorMatrix> averagedFlow::momentumMatrix() {
+  const stopwatch watch(cost_.momentum);
+  const tmp<volScalarField> nu = fluid_.nu();
+  tmp<fvVectorMatrix> stress(-fvm::laplacian(nu(), U_, diffusionScheme) -
+                             fvc::div(nu() * dev2(T(fvc::grad(U_))), stressScheme));
+  tmp<fvVectorMatrix> tUEqn;
+  if (!coupled_.valid()) {
+    tUEqn = fvm::ddt(U_) + fvm::div(phi_, U_, convectionScheme) + stress;
+    if (drive_.active()) {
+      tUEqn.ref() -= drive_.acceleration();
+    }
+  } else {
+    coupledFields& c = coupled_();
+    c.alphaPhi = c.alphaf * phi_;
+    c.imbalance = (fvc::ddt(c.alpha) + fvc::div(c.alphaPhi))()();
+    if (share_ == stressShare::fraction) {
+      stress.ref() *= c.alpha;
+    }
+    tUEqn = fvm::ddt(c.alpha, U_) + fvm::div(c.alphaPhi, U_, convectionScheme) - fvm::Sp(c.imbalance, U_) +
+            fvm::Sp(c.exchange, U_) + stress;
+    const scalarField& V = mesh_.V().field();
+    const vectorField& Uold = U_.oldTime().primitiveField();
+    const scalarField& alpha = c.alpha.primitiveField();
+    const vector G = drive_.acceleration().value();
+    vectorField& source = tUEqn.ref().source();
+    forAll(source, celli) {
+      source[celli] +=
+          V[celli] * (c.particleForce[celli] + c.withheld[celli] + c.exchange[celli] * Uold[celli] + alpha[celli] * G);
+    }
+  }
+  tUEqn.ref().relax();
+  return tUEqn;
+}
+
+void averagedFlow::predictVelocity(fvVectorMatrix& UEqn) {
+  const stopwatch watch(cost_.momentum);
+  const volScalarField* alpha = coupled_.valid() ? &coupled_->alpha : nullptr;
+  drive_.solveResponse(UEqn, alpha);
+  if (!pimple_.momentumPredictor()) {
+    return;
+  }
+  if (alpha) {
+    solve(UEqn == -(*alpha) * fvc::grad(p_));
+  } else {
+    solve(UEqn == -fvc::grad(p_));
+  }
+  const vector dG = drive_.correct(U_, alpha) * drive_.axis();
+  if (alpha) {
+    UEqn.source() += dG * (mesh_.V().field() * alpha->primitiveField());
+  } else {
+    UEqn.source() += dG * mesh_.V().field();
+  }
+}
+
+void averagedFlow::correctPressure(fvVectorMatrix& UEqn) {
+  const stopwatch watch(cost_.pressure);
+  coupledFields* const c = coupled_.valid() ? &coupled_() : nullptr;
+  const volScalarField rAU("rAU", 1.0 / UEqn.A());
+  volVectorField HbyA(constrainHbyA(rAU * UEqn.H(), U_, p_));
+  surfaceScalarField phiHbyA("phiHbyA", fvc::flux(HbyA));
+  {
+    tmp<surfaceScalarField> history = fvc::interpolate(rAU) * fvc::ddtCorr(U_, phi_);
+    if (c) {
+      history.ref() *= c->alphaf;
+    }
+    phiHbyA += history;
+  }
+  if (!c && p_.needReference()) {
+    adjustPhi(phiHbyA, U_, p_);
+  }
+
+  // rAtU: response of U to -grad p (model A: times alpha), of the whole row if consistent.
+  tmp<volScalarField> rAtU(rAU);
+  if (pimple_.consistent()) {
+    // At least the tenth of the diagonal, so that the response stays finite where the row sums vanish.
+    rAtU = 1.0 / max(1.0 / rAU - UEqn.H1(), 0.1 / rAU);
+    tmp<surfaceScalarField> shift = fvc::interpolate(rAtU() - rAU) * fvc::snGrad(p_) * mesh_.magSf();
+    if (c) {
+      HbyA -= (rAU - rAtU()) * c->alpha * fvc::grad(p_);
+      shift.ref() *= c->alphaf;
+    } else {
+      HbyA -= (rAU - rAtU()) * fvc::grad(p_);
+    }
+    phiHbyA += shift;
+  }
+  if (c) {
+    rAtU = tmp<volScalarField>(new volScalarField("rAtU", rAtU() * c->alpha));
+  }
+  constrainPressure(p_, U_, phiHbyA, rAtU());
+
+  tmp<volScalarField::Internal> rate;
+  if (c) {
+    rate = fvc::ddt(c->alpha)()();
+  }
+  while (pimple_.correctNonOrthogonal()) {
+    tmp<fvScalarMatrix> tpEqn;
+    if (c) {
+      tpEqn = fvm::laplacian(c->alphaf * fvc::interpolate(rAtU()), p_) == rate() + fvc::div(c->alphaf * phiHbyA)()();
+    } else {
+      tpEqn = fvm::laplacian(rAtU(), p_) == fvc::div(phiHbyA);
+    }
+    fvScalarMatrix& pEqn = tpEqn.ref();
+    pEqn.setReference(pRefCell_, pRefValue_);
+    pEqn.solve(mesh_.solver(p_.select(pimple_.finalInnerIter())));
+    if (pimple_.finalNonOrthogonalIter()) {
+      if (c) {
+        c->alphaPhi = c->alphaf * phiHbyA - pEqn.flux();
+        phi_ = c->alphaPhi / c->alphaf;
+      } else {
+        phi_ = phiHbyA - pEqn.flux();
+      }
+    }
+  }
+  p_.relax();
+  U_ = HbyA - rAtU * fvc::grad(p_);
+  U_.correctBoundaryConditions();
+}
+
+void averagedFlow::storeWithheldForce() {
+  coupledFields& c = coupled_();
+  const vectorField& Uold = U_.oldTime().primitiveField();
+  forAll(c.withheld, celli) {
+    c.withheld[celli] = c.exchange[celli] * (U_[celli] - Uold[celli]) - c.imbalance[celli] * U_[celli];
+  }
+  c.withheld.correctBoundaryConditions();
+}
+
+tmp<volVectorField> averagedFlow::pressureGradient() const {
+  tmp<volVectorField> gradient(fvc::grad(p_));
+  gradient.ref() -= drive_.acceleration();
+  return dimensionedScalar("rho", dimDensity, rho_) * gradient;
+}
+
+tmp<volVectorField> averagedFlow::vorticity() const {
+  return fvc::curl(U_);
+}
+
+tmp<volVectorField> averagedFlow::stressDivergence() const {
+  const tmp<volScalarField> nu = fluid_.nu();
+  return dimensionedScalar("rho", dimDensity, rho_) *
+         (fvc::laplacian(nu(), U_, diffusionScheme) + fvc::div(nu() * dev2(T(fvc::grad(U_))), stressScheme));
+}
+
+vector averagedFlow::superficialVelocity() const {
+  const scalarField& V = mesh_.V().field();
+  const vector sum = coupled_.valid() ? gSum(U_.primitiveField() * coupled_->alpha.primitiveField() * V)
+                                      : gSum(U_.primitiveField() * V);
+  return sum / gSum(V);
+}
+
+scalar averagedFlow::CourantNo() const {
+  const scalarField fluxes(fvc::surfaceSum(mag(phi_))().primitiveField());
+  return 0.5 * gMax((fluxes / mesh_.V().field())()) * mesh_.time().deltaTValue();
+}
+
+namespace {
+
+scalarField massImbalance(const volScalarField* alpha, const surfaceScalarField& flux) {
+  scalarField rate(fvc::div(flux)().primitiveField());
+  if (alpha) {
+    rate += fvc::ddt(*alpha)().primitiveField();
+  }
+  return rate;
+}
+
+} // namespace
+
+scalar averagedFlow::continuityError() const {
+  const scalarField rate(coupled_.valid() ? massImbalance(&coupled_->alpha, coupled_->alphaPhi)
+                                          : massImbalance(nullptr, phi_));
+  const scalarField& V = mesh_.V().field();
+  return mesh_.time().deltaTValue() * gSum(mag(rate) * V) / gSum(V);
+}
+
+scalar averagedFlow::globalContinuityError() const {
+  const scalarField rate(coupled_.valid() ? massImbalance(&coupled_->alpha, coupled_->alphaPhi)
+                                          : massImbalance(nullptr, phi_));
+  const scalarField& V = mesh_.V().field();
+  return mesh_.time().deltaTValue() * gSum(rate * V) / gSum(V);
+}
+
+} // namespace Foam
