@@ -25,6 +25,7 @@ template <class Stress, class Law> class DragEffect : public Effect {
   const char* slot() const override { return "drag"; }
   unsigned needs() const override { return kVelocity | kFraction; }
   void prepare(const ParticleGeometry& geometry) override {
+    geometry_ = &geometry;
     laws_.clear();
     for (int kind = 0; kind < geometry.kinds(); ++kind)
       laws_.emplace_back(geometry.factors(kind));
@@ -36,9 +37,6 @@ template <class Stress, class Law> class DragEffect : public Effect {
       if (!(kick.mask[i] & kick.group))
         continue;
       const double d = 2.0 * kick.radius[i];
-      const double fraction = std::clamp(kick.samples.fraction[i], kDragFractionFloor, 1.0);
-      const auto law = laws_[kick.kind[i]].in(fraction);
-      const Resistance<Stress, std::decay_t<decltype(law)>> drag{stress_, law, kPi / 8.0 * d * d, d, density_};
       const double compliance = kick.compliance(i);
       double slip[3], free[3], f[3];
       double slip2 = 0.0, free2 = 0.0;
@@ -51,6 +49,12 @@ template <class Stress, class Law> class DragEffect : public Effect {
       if (!(free2 > 0.0))
         continue;
       const double free_speed = std::sqrt(free2);
+      DragPlace place;
+      place.fraction = std::clamp(kick.samples.fraction[i], kDragFractionFloor, 1.0);
+      if constexpr (Law::kOriented)
+        place.crosswise = geometry_->crosswise_sphericity(i, free);
+      const auto law = laws_[kick.kind[i]].in(place);
+      const Resistance<Stress, std::decay_t<decltype(law)>> drag{stress_, law, kPi / 8.0 * d * d, d, density_};
       const ImplicitSlip step = implicit_slip(drag, free_speed, compliance, std::sqrt(slip2));
       // What is exchanged is the force that was really given, so the fluid receives exactly what the particle lost. Its
       // linearisation is the answer of the stepped particle to the fluid's velocity: at most m/interval, also at rest.
@@ -73,6 +77,7 @@ template <class Stress, class Law> class DragEffect : public Effect {
   Stress stress_;
   double density_;
   std::vector<Law> laws_;
+  const ParticleGeometry* geometry_ = nullptr;
 };
 
 } // namespace eccentra::fluid

@@ -6,6 +6,8 @@
 #include "fluid/body_forces.h"
 #include "fluid/drag_effect.h"
 #include "fluid/drag_laws.h"
+#include "fluid/lift_effects.h"
+#include "fluid/rotational_drag.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -26,11 +28,19 @@ template <class Law> std::unique_ptr<Effect> make_drag(const char* name, const R
 struct DragEntry {
   const char* name;
   DragMaker make;
+  DragMaker make_void_reynolds; ///< with alpha Re in place of Re
 };
 
-/// Every drag law that a script can name.
+/// Every drag law that a script can name. wen_yu, gidaspow and di_felice define their own use of the fraction.
 constexpr DragEntry kDragLaws[] = {
-    {"chien", &make_drag<Chien>},
+    {"chien", &make_drag<Suspended<Chien>>, &make_drag<Suspended<Chien, true>>},
+    {"schiller_naumann", &make_drag<Suspended<SchillerNaumann>>, &make_drag<Suspended<SchillerNaumann, true>>},
+    {"haider_levenspiel", &make_drag<Suspended<HaiderLevenspiel>>, &make_drag<Suspended<HaiderLevenspiel, true>>},
+    {"ganser", &make_drag<Suspended<Ganser>>, &make_drag<Suspended<Ganser, true>>},
+    {"holzer_sommerfeld", &make_drag<Suspended<HoelzerSommerfeld>>, &make_drag<Suspended<HoelzerSommerfeld, true>>},
+    {"wen_yu", &make_drag<Suspended<SchillerNaumann, true>>, &make_drag<Suspended<SchillerNaumann, true>>},
+    {"gidaspow", &make_drag<Gidaspow>, &make_drag<Gidaspow>},
+    {"di_felice", &make_drag<DiFelice>, &make_drag<DiFelice>},
 };
 
 [[noreturn]] void fail(const std::string& text) {
@@ -59,6 +69,14 @@ class WordReader {
     if (value != "off" && value != "none")
       fail("keyword '" + keyword_ + "' has '" + value + "': write on or off");
     return false;
+  }
+  /// The name of the only closure of its kind, or none.
+  bool choice(const std::string& name) {
+    const std::string expected = name + " or none";
+    const std::string& value = word(expected.c_str());
+    if (value != name && value != "none")
+      fail("keyword '" + keyword_ + "' has '" + value + "': write " + expected);
+    return value == name;
   }
   bool at_number() const {
     if (!more())
@@ -151,6 +169,14 @@ FluidOptions read_fluid_options(const std::vector<std::string>& words, int atom_
       options.drag = reader.word(drag_law_names().c_str());
       if (options.drag != "none" && !find_drag(options.drag))
         fail("'drag' has '" + options.drag + "': write " + drag_law_names());
+    } else if (keyword == "void_reynolds") {
+      options.void_reynolds = reader.on_off();
+    } else if (keyword == "shear_lift") {
+      options.shear_lift = reader.choice("saffman_mei");
+    } else if (keyword == "rotational_lift") {
+      options.rotational_lift = reader.choice("oesterle_bui_dinh");
+    } else if (keyword == "drag_torque") {
+      options.drag_torque = reader.choice("dennis");
     } else if (keyword == "buoyancy") {
       options.buoyancy = reader.on_off();
     } else if (keyword == "pressure_gradient") {
@@ -161,7 +187,8 @@ FluidOptions read_fluid_options(const std::vector<std::string>& words, int atom_
       read_sphericity(reader, options, atom_types);
     } else {
       fail("unknown word '" + keyword +
-           "': known are rheology, density, drag, buoyancy, pressure_gradient, viscous_stress, sphericity");
+           "': known are rheology, density, drag, void_reynolds, shear_lift, rotational_lift, drag_torque, "
+           "pressure_gradient, viscous_stress, buoyancy, sphericity");
     }
   }
   if (options.rheology.consistency == 0.0)
@@ -180,8 +207,16 @@ EffectList make_effects(const FluidOptions& options) {
     effects.push_back(std::make_unique<BodyForce<PressureField>>(fluid));
   if (options.viscous_stress)
     effects.push_back(std::make_unique<BodyForce<StressField>>(fluid));
+  if (options.shear_lift)
+    effects.push_back(std::make_unique<ShearLift>(fluid));
+  if (options.rotational_lift)
+    effects.push_back(std::make_unique<RotationalLift>(fluid));
   if (const DragEntry* entry = find_drag(options.drag))
-    effects.push_back(entry->make(entry->name, fluid));
+    effects.push_back((options.void_reynolds ? entry->make_void_reynolds : entry->make)(entry->name, fluid));
+  if (options.drag_torque && fluid.newtonian())
+    effects.push_back(std::make_unique<RotationalDrag<NewtonianStress>>(fluid));
+  else if (options.drag_torque)
+    effects.push_back(std::make_unique<RotationalDrag<HerschelBulkleyStress>>(fluid));
   return effects;
 }
 

@@ -14,6 +14,10 @@ namespace eccentra::fluid {
 struct FluidOptions {
   Rheology rheology;
   std::string drag = "none";
+  bool void_reynolds = false; ///< alpha Re in place of Re in a single-particle drag law
+  bool shear_lift = false;
+  bool rotational_lift = false;
+  bool drag_torque = false;
   bool buoyancy = true;
   bool pressure_gradient = false;
   bool viscous_stress = false;

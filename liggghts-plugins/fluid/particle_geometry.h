@@ -6,10 +6,16 @@
 #include "fluid/drag_laws.h"
 #include "fluid/rheology.h"
 
+#include "fluid/projected_area.h"
+
+#include <memory>
 #include <vector>
 
 namespace LAMMPS_NS {
 class LAMMPS;
+}
+namespace eccentra::cluster {
+class FixBodies;
 }
 
 namespace eccentra::fluid {
@@ -39,14 +45,23 @@ class ParticleGeometry {
   const int* kind() const;
   int kinds() const;
   ShapeFactors factors(int kind) const;
+  /// Smallest principal moment of inertia over m R_eq^2; 0.4 for a sphere.
+  double inertia_factor(int kind) const;
+  /// phi_perp of local atom i for a flow along `direction` (any length, world frame); 1 for a plain sphere.
+  double crosswise_sphericity(int i, const double* direction) const;
 
   double volume(int i) const { return sphere_volume(radius_of(i)); }
   double diameter(int i) const { return 2.0 * radius_of(i); }
 
  private:
   double radius_of(int i) const;
+
   LAMMPS_NS::LAMMPS* lmp_;
   std::vector<double> sphericity_ = {1.0};
+  cluster::FixBodies* bodies_ = nullptr; ///< null where no cluster was declared; then nothing below is used
+  std::vector<double> radius_;
+  std::vector<int> kind_;
+  mutable std::vector<std::unique_ptr<ProjectedAreaTable>> areas_; ///< by shape id, made at first use
 };
 
 } // namespace eccentra::fluid
