@@ -13,7 +13,6 @@
 
 #include "fix.h"
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -39,9 +38,6 @@ class FixFluidForce : public LAMMPS_NS::Fix {
   /// and end_of_step see is exact up to the half kick that the integrator still owes.
   FluidReaction reaction();
   void reset_reaction();
-  /// Of that, what local atom i has in its velocity Atom::v by now: without the half kick that the integrator owes [N
-  /// s].
-  std::array<double, 3> received(int i);
   /// The fix that fills samples(), by id; a second one is an error at set-up.
   void announce_source(const std::string& fix_id);
 

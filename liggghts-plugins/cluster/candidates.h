@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which sub-spheres of two near bodies can touch soon: the search, and the list that it leaves behind.
+#pragma once
+
+#include "cluster/surface_spheres.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace eccentra::cluster {
+
+/// A pair of sub-spheres as one number: a's index in the upper half, b's in the lower.
+inline int contact_id(int a, int b) {
+  return a << 16 | b;
+}
+inline int contact_sphere_a(int id) {
+  return id >> 16;
+}
+inline int contact_sphere_b(int id) {
+  return id & 0xffff;
+}
+constexpr int max_surface_spheres = 1 << 15;
+
+/// Where body B lies in the body frame of A. Single precision: this only preselects.
+struct RelativePose {
+  /// r: row-major rotations body to world; offset: from A's centre to B's [m], world frame.
+  RelativePose(const double* r_a, const double* r_b, const double* offset);
+  float turn[9];  ///< from B's frame to A's, row-major
+  float shift[3]; ///< of B's centre [m]
+};
+
+/// Candidates of many pairs of bodies, one after the other, as structure of arrays: centres in either body frame.
+/// Each list starts and ends at a multiple of `width`; the padding touches nothing.
+class CandidateStore {
+ public:
+  static constexpr int width = 8;
+
+  void clear();
+  /// Room for `count` more; returns the index of the first.
+  int reserve(int count);
+  /// Elements in use, the abandoned ones among them.
+  int size() const { return static_cast<int>(id.size()); }
+
+  std::vector<float> ax, ay, az, bx, by, bz, reach;
+  std::vector<int> id;
+};
+
+/// What a search found.
+struct SearchResult {
+  int count;   ///< pairs of sub-spheres within the skin
+  float slack; ///< relative motion that cannot bring any other pair into touch [m]
+};
+
+/// Finds the pairs of sub-spheres of A and B that are closer than `skin`, in ascending order of contact_id.
+class CandidateSearch {
+ public:
+  /// extra: added to all radii (plain spheres).
+  SearchResult search(const SurfaceSpheres& a, float extra_a, const SurfaceSpheres& b, float extra_b,
+                      const RelativePose& pose, float skin);
+  /// Writes the pairs found by the last search to `store` at `first`, padded to whole vectors.
+  void write(const SurfaceSpheres& a, float extra_a, const SurfaceSpheres& b, float extra_b, CandidateStore& store,
+             int first) const;
+  static int padded(int count) {
+    return (count + CandidateStore::width - 1) / CandidateStore::width * CandidateStore::width;
+  }
+
+ private:
+  std::vector<int> found_;
+  std::vector<float> px_, py_, pz_, gap_; ///< B's sub-spheres in A's frame
+  std::vector<int> near_a_, near_b_;
+  std::vector<float> nx_, ny_, nz_, nr_, distance_; ///< the near ones of B, compact
+};
+
+/// Writes to `hits` the indices (into store, from first on) of candidates that may overlap now; returns how many.
+int overlapping_candidates(const CandidateStore& store, int first, int count, const RelativePose& pose, float margin,
+                           int* hits);
+
+} // namespace eccentra::cluster

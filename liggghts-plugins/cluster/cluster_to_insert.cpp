@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Places one cluster and gives its atom shape, mass, orientation and angular momentum.
+#include "cluster/cluster_to_insert.h"
+
+#include "cluster/bodies.h"
+
+#include "atom.h"
+#include "error.h"
+
+#include <Eigen/Geometry>
+
+namespace eccentra::cluster {
+
+using namespace LAMMPS_NS;
+
+void ClusterToInsert::set_orientation(const double* insertion) {
+  const Eigen::Quaterniond outer(insertion[0], insertion[1], insertion[2], insertion[3]);
+  const Eigen::Quaterniond own(own_orientation[0], own_orientation[1], own_orientation[2], own_orientation[3]);
+  const Eigen::Quaterniond q = (outer * own).normalized();
+  orientation_[0] = q.w();
+  orientation_[1] = q.x();
+  orientation_[2] = q.y();
+  orientation_[3] = q.z();
+}
+
+int ClusterToInsert::check_near_set_x_v_omega(double* x, double* v, double* omega, double* quat,
+                                              RegionNeighborList<interpolate_no>& near) {
+  set_orientation(quat);
+  return ParticleToInsert::check_near_set_x_v_omega(x, v, omega, quat, near);
+}
+
+int ClusterToInsert::set_x_v_omega(double* x, double* v, double* omega, double* quat) {
+  set_orientation(quat);
+  return ParticleToInsert::set_x_v_omega(x, v, omega, quat);
+}
+
+int ClusterToInsert::insert() {
+  const int inserted = ParticleToInsert::insert();
+  FixBodies::require(lmp).make_body(atom->nlocal - 1, shape_id, density_ins, orientation_);
+  return inserted;
+}
+
+void ClusterToInsert::scale_pti(double) {
+  error->one(FLERR, "clusters cannot be scaled while they are inserted: declare one particletemplate/cluster per size");
+}
+
+} // namespace eccentra::cluster

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Hertz-Mindlin contacts with history, many at a time; pure, no LIGGGHTS.
+#pragma once
+
+#include <cmath>
+
+namespace eccentra::cluster {
+
+/// Which damping: stock's exact Hertz value sqrt(5) beta, or the paper's 2 beta (eq 13-17).
+enum class DampingLaw { stock, paper };
+
+/// Contacts between sub-spheres, as structure of arrays. A and B are the two bodies; arms run from a body's centre of
+/// mass to its sub-sphere's centre; world frame, SI. Strides are kept off powers of two (they alias in the cache).
+struct ContactBlock {
+  static constexpr int capacity = 520; ///< most sub-contacts of one pair of bodies
+  using Row = double[capacity];
+
+  // In: geometry and state.
+  alignas(64) Row separation[3];          ///< from the centre of B's sub-sphere to that of A's [m]
+  alignas(64) Row arm_a[3], arm_b[3];     ///< [m]
+  alignas(64) Row radius_a, radius_b;     ///< of the sub-spheres [m]
+  alignas(64) Row velocity[3];            ///< of A minus that of B, centres of mass [m/s]
+  alignas(64) Row omega_a[3], omega_b[3]; ///< [rad/s]
+  alignas(64) Row mass;                   ///< effective mass of the two bodies [kg]
+  alignas(64) Row youngs, shear_modulus;  ///< effective E* and G* [Pa], eq (12), (15)
+  alignas(64) Row damping;                ///< beta = -ln e / sqrt(pi^2 + ln^2 e) >= 0
+  alignas(64) Row friction;               ///< Coulomb coefficient
+  alignas(64) Row share;                  ///< factor of the damping, 1 or as SharedStiffness gives it
+  // In and out: tangential displacement [m].
+  alignas(64) Row history[3];
+  // Between the two passes, and out.
+  alignas(64) Row normal[3];                ///< unit, from B to A
+  alignas(64) Row overlap;                  ///< [m]
+  alignas(64) Row contact_radius;           ///< sqrt(R* overlap) [m]
+  alignas(64) Row force[3];                 ///< on A [N]; B gets the opposite
+  alignas(64) Row torque_a[3], torque_b[3]; ///< about the centres of mass [N m]
+};
+
+/// First pass: normal, overlap and contact radius of contacts 0..n-1. Overlaps must be >= 0.
+inline void contact_geometry(ContactBlock& c, int n) {
+#pragma GCC ivdep
+  for (int m = 0; m < n; ++m) {
+    const double x = c.separation[0][m], y = c.separation[1][m], z = c.separation[2][m];
+    const double distance = std::sqrt(x * x + y * y + z * z);
+    const double inverse = 1 / distance;
+    const double sum = c.radius_a[m] + c.radius_b[m];
+    const double overlap = sum - distance;
+    c.normal[0][m] = x * inverse;
+    c.normal[1][m] = y * inverse;
+    c.normal[2][m] = z * inverse;
+    c.overlap[m] = overlap;
+    c.contact_radius[m] = std::sqrt(c.radius_a[m] * c.radius_b[m] / sum * overlap);
+  }
+}
+
+/// Second pass: forces and torques of contacts 0..n-1.
+/// Normal, eq (12)-(14): kn d - gamma_n v_n with kn = 4/3 E* a, a the contact radius; stock's gamma_n =
+/// 2 sqrt(5/6) beta sqrt(2 E* a m*), the paper's 2 beta sqrt(4/3 E* a m*). Tangential, eq (15)-(17): kt = 8 G* a on the
+/// displacement, capped by Coulomb. Stock: cap mu |F_n| with damping, tangential damping while sticking. Paper: cap
+/// mu |F_n| elastic, damping 2 beta sqrt(2/7 kt m*) always; it has no tangential restitution of its own here, e_t =
+/// e_n. `advance` moves the history by dt; without it the history is only read.
+template <DampingLaw law, bool tangential_damping = true>
+inline void contact_forces(ContactBlock& c, int n, double dt, bool advance) {
+  const double stock_damping = 2 * std::sqrt(5. / 6.);
+  const double time = advance ? dt : 0;
+  constexpr double tiny = 1e-300; // keeps 0/0 out where nothing slides
+#pragma GCC ivdep
+  for (int m = 0; m < n; ++m) {
+    const double nx = c.normal[0][m], ny = c.normal[1][m], nz = c.normal[2][m];
+    const double reach_a = c.radius_a[m] - 0.5 * c.overlap[m], reach_b = c.radius_b[m] - 0.5 * c.overlap[m];
+    // Arms to the contact point, and the velocity of A's material there relative to B's.
+    const double ax = c.arm_a[0][m] - reach_a * nx, ay = c.arm_a[1][m] - reach_a * ny,
+                 az = c.arm_a[2][m] - reach_a * nz;
+    const double bx = c.arm_b[0][m] + reach_b * nx, by = c.arm_b[1][m] + reach_b * ny,
+                 bz = c.arm_b[2][m] + reach_b * nz;
+    const double pa = c.omega_a[0][m], qa = c.omega_a[1][m], ra = c.omega_a[2][m];
+    const double pb = c.omega_b[0][m], qb = c.omega_b[1][m], rb = c.omega_b[2][m];
+    const double vx = c.velocity[0][m] + (qa * az - ra * ay) - (qb * bz - rb * by);
+    const double vy = c.velocity[1][m] + (ra * ax - pa * az) - (rb * bx - pb * bz);
+    const double vz = c.velocity[2][m] + (pa * ay - qa * ax) - (pb * by - qb * bx);
+    const double vn = vx * nx + vy * ny + vz * nz;
+    const double tx = vx - vn * nx, ty = vy - vn * ny, tz = vz - vn * nz;
+
+    const double a = c.contact_radius[m];
+    const double kn = 4. / 3. * c.youngs[m] * a, kt = 8 * c.shear_modulus[m] * a;
+    double gamma_n, gamma_t;
+    if (law == DampingLaw::stock) {
+      const double factor = stock_damping * c.damping[m] * c.share[m];
+      gamma_n = factor * std::sqrt(2 * c.youngs[m] * a * c.mass[m]);
+      gamma_t = factor * std::sqrt(kt * c.mass[m]);
+    } else {
+      const double factor = 2 * c.damping[m] * c.share[m];
+      gamma_n = factor * std::sqrt(kn * c.mass[m]);
+      gamma_t = factor * std::sqrt(2. / 7. * kt * c.mass[m]);
+    }
+    if (!tangential_damping)
+      gamma_t = 0;
+    const double elastic = kn * c.overlap[m];
+    const double fn = elastic - gamma_n * vn;
+
+    double sx = c.history[0][m] + tx * time, sy = c.history[1][m] + ty * time, sz = c.history[2][m] + tz * time;
+    // The displacement turns with the tangent plane.
+    const double out = (sx * nx + sy * ny + sz * nz) * (advance ? 1 : 0);
+    sx -= out * nx;
+    sy -= out * ny;
+    sz -= out * nz;
+    const double spring = kt * std::sqrt(sx * sx + sy * sy + sz * sz);
+    const double cap = c.friction[m] * std::fabs(law == DampingLaw::stock ? fn : elastic);
+    const bool slides = spring > cap;
+    const double scale = slides ? cap / (spring + tiny) : 1;
+    const double damper = law == DampingLaw::stock && slides ? 0 : gamma_t;
+    const double hx = sx * scale, hy = sy * scale, hz = sz * scale;
+    const double fx = fn * nx - kt * hx - damper * tx;
+    const double fy = fn * ny - kt * hy - damper * ty;
+    const double fz = fn * nz - kt * hz - damper * tz;
+    c.history[0][m] = advance ? hx : c.history[0][m];
+    c.history[1][m] = advance ? hy : c.history[1][m];
+    c.history[2][m] = advance ? hz : c.history[2][m];
+    c.force[0][m] = fx;
+    c.force[1][m] = fy;
+    c.force[2][m] = fz;
+    c.torque_a[0][m] = ay * fz - az * fy;
+    c.torque_a[1][m] = az * fx - ax * fz;
+    c.torque_a[2][m] = ax * fy - ay * fx;
+    c.torque_b[0][m] = bz * fy - by * fz;
+    c.torque_b[1][m] = bx * fz - bz * fx;
+    c.torque_b[2][m] = by * fx - bx * fy;
+  }
+}
+
+} // namespace eccentra::cluster

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The list of near pairs of bodies of this rank, with the history of their contacts and their candidates.
+#pragma once
+
+#include "cluster/bodies.h"
+#include "cluster/candidates.h"
+#include "cluster/contact_history.h"
+
+#include "pointers.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+class NeighList;
+}
+
+namespace eccentra::cluster {
+
+/// Two bodies near each other. A has the lower tag, so that every rank that meets the pair computes the same.
+struct NearPair {
+  int a, b; ///< local or ghost indices
+  int tag_a, tag_b;
+  const SurfaceSpheres *surface_a, *surface_b;
+  bool direct;         ///< two single spheres: nothing to search
+  float slack;         ///< relative motion left before the candidates must be searched again [m]; < 0: search now
+  float range;         ///< sum of the bounding radii [m]
+  int candidate_first; ///< into the candidate store
+  int candidate_count;
+  int candidate_room;
+};
+
+/// Contacts of one step in the order of the pairs, ids ascending within a pair.
+struct ContactList {
+  std::vector<int> first; ///< per pair, and one past the end
+  std::vector<int> id;
+  std::vector<double> displacement[3];
+  void clear(std::size_t pairs);
+  int size() const { return static_cast<int>(id.size()); }
+};
+
+/// Kept in ascending order of (tag_a, tag_b): then forces on a body add up in an order that depends neither on the
+/// number of ranks nor on when neighbour lists were built, and results agree to the last bit.
+class NearPairs : protected LAMMPS_NS::Pointers {
+ public:
+  NearPairs(LAMMPS_NS::LAMMPS* lmp, FixBodies& bodies, FixContactHistory& history);
+
+  /// True while the arrays here hold the newest history.
+  bool live() const { return live_; }
+  /// Makes the pairs of a fresh neighbour list and takes the history over from the atoms.
+  void rebuild(const LAMMPS_NS::NeighList& list);
+  /// Copies the history to the atoms. `keep`: the pairs stay valid.
+  void hand_over(bool keep);
+
+  std::vector<NearPair> pairs;
+  ContactList contacts, next; ///< of the last step; the one under construction
+  CandidateStore candidates;
+
+  /// Makes `next` the contacts of the last step.
+  void accept() { std::swap(contacts, next); }
+  double memory_usage() const;
+
+ private:
+  void take_history();
+
+  FixBodies& bodies_;
+  FixContactHistory& history_;
+  bool live_ = false;
+  int local_at_build_ = 0;
+};
+
+} // namespace eccentra::cluster

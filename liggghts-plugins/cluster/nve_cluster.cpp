@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// fix nve/cluster: motion of clusters and plain spheres, velocity Verlet with exact rotations.
+#include "cluster/bodies.h"
+#include "host/style_registry.h"
+
+#include "atom.h"
+#include "error.h"
+#include "fix.h"
+#include "force.h"
+#include "lammps.h"
+#include "update.h"
+
+#include <mpi.h>
+
+#include <string>
+
+namespace eccentra::cluster {
+
+using namespace LAMMPS_NS;
+
+/// Fix style "nve/cluster". Output (fix ID): scalar: energy of rotation [J]; vector: 1 energy of translation, 2 energy
+/// of rotation [J], 3-5 momentum [kg m/s], 6-8 angular momentum about the bodies' own centres, summed [kg m2/s].
+class FixNveCluster : public Fix {
+ public:
+  FixNveCluster(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {
+    if (narg > 3)
+      error->all(
+          FLERR,
+          ("fix " + std::string(id) + " nve/cluster takes no further words, but found '" + arg[3] + "'").c_str());
+    time_integrate = 1;
+    scalar_flag = 1;
+    vector_flag = 1;
+    size_vector = 8;
+    global_freq = 1;
+  }
+
+  void post_create() override { FixBodies::require(lmp); }
+
+  int setmask() override { return FixConst::INITIAL_INTEGRATE | FixConst::FINAL_INTEGRATE; }
+
+  void init() override {
+    reset_dt();
+    bodies_ = &FixBodies::require(lmp);
+  }
+
+  void reset_dt() override {
+    dt_ = update->dt;
+    half_kick_ = 0.5 * update->dt * force->ftm2v;
+  }
+
+  // A script may have set omega since the last run: then the angular momentum follows it.
+  void setup(int) override {
+    constexpr double round_off = 1e-9;
+    for (int i = 0; i < atom->nlocal; ++i) {
+      if (!(atom->mask[i] & groupbit) || bodies_->shape_id(i) == FixBodies::plain_sphere)
+        continue;
+      double* omega = atom->omega[i];
+      const double set[3] = {omega[0], omega[1], omega[2]};
+      bodies_->omega_from_momentum(i);
+      double change = 0, size = 0;
+      for (int k = 0; k < 3; ++k) {
+        change += std::abs(omega[k] - set[k]);
+        size += std::abs(omega[k]) + std::abs(set[k]);
+      }
+      if (change > round_off * size) {
+        std::copy(set, set + 3, omega);
+        bodies_->momentum_from_omega(i);
+      }
+    }
+  }
+
+  void initial_integrate(int) override {
+    for (int i = 0; i < atom->nlocal; ++i) {
+      if (!(atom->mask[i] & groupbit))
+        continue;
+      kick(i);
+      for (int k = 0; k < 3; ++k)
+        atom->x[i][k] += dt_ * atom->v[i][k];
+      if (bodies_->shape_id(i) != FixBodies::plain_sphere)
+        turn(i);
+    }
+  }
+
+  void final_integrate() override {
+    for (int i = 0; i < atom->nlocal; ++i) {
+      if (!(atom->mask[i] & groupbit))
+        continue;
+      kick(i);
+      if (bodies_->shape_id(i) != FixBodies::plain_sphere)
+        bodies_->omega_from_momentum(i);
+    }
+  }
+
+  double compute_scalar() override { return compute_vector(1); }
+
+  double compute_vector(int n) override {
+    double local = 0;
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (atom->mask[i] & groupbit)
+        local += quantity(i, n);
+    double global = 0;
+    MPI_Allreduce(&local, &global, 1, MPI_DOUBLE, MPI_SUM, world);
+    return global;
+  }
+
+ private:
+  /// Half a step of velocity, and of angular momentum (plain spheres: angular velocity).
+  void kick(int i) {
+    const double c = half_kick_ / atom->rmass[i];
+    double* v = atom->v[i];
+    const double* f = atom->f[i];
+    const double* torque = atom->torque[i];
+    for (int k = 0; k < 3; ++k)
+      v[k] += c * f[k];
+    if (bodies_->shape_id(i) == FixBodies::plain_sphere) {
+      constexpr double solid_sphere = 0.4;
+      const double r = atom->radius[i];
+      const double w = half_kick_ / solid_sphere / (r * r * atom->rmass[i]);
+      for (int k = 0; k < 3; ++k)
+        atom->omega[i][k] += w * torque[k];
+    } else {
+      double* momentum = bodies_->angular_momentum(i);
+      for (int k = 0; k < 3; ++k)
+        momentum[k] += half_kick_ * torque[k];
+    }
+  }
+
+  void turn(int i) {
+    const FreeRotation& rotation = bodies_->shapes().free_rotation(bodies_->shape_id(i));
+    const double* momentum = bodies_->angular_momentum(i);
+    const double per_mass = 1 / atom->rmass[i];
+    const double specific[3] = {momentum[0] * per_mass, momentum[1] * per_mass, momentum[2] * per_mass};
+    rotation.step(bodies_->quaternion(i), specific, dt_);
+    if (!rotation.spherical())
+      rotation_matrix(bodies_->quaternion(i), bodies_->rotation(i));
+    bodies_->omega_from_momentum(i);
+  }
+
+  double quantity(int i, int n) {
+    const double m = atom->rmass[i];
+    const double *v = atom->v[i], *w = atom->omega[i];
+    double momentum[3];
+    if (bodies_->shape_id(i) == FixBodies::plain_sphere) {
+      const double inertia = bodies_->inertia(i)[0];
+      for (int k = 0; k < 3; ++k)
+        momentum[k] = inertia * w[k];
+    } else {
+      std::copy(bodies_->angular_momentum(i), bodies_->angular_momentum(i) + 3, momentum);
+    }
+    if (n == 0)
+      return 0.5 * m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    if (n == 1)
+      return 0.5 * (momentum[0] * w[0] + momentum[1] * w[1] + momentum[2] * w[2]);
+    return n < 5 ? m * v[n - 2] : momentum[n - 5];
+  }
+
+  FixBodies* bodies_ = nullptr;
+  double dt_ = 0;
+  double half_kick_ = 0;
+};
+
+namespace {
+const host::RegisterFix<FixNveCluster> registered("nve/cluster", "motion of clusters (and plain spheres)");
+}
+
+} // namespace eccentra::cluster

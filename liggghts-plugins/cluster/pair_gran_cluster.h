@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// pair_style gran/cluster: contacts between clusters, and between clusters and plain spheres.
+#pragma once
+
+#include "cluster/contact_law.h"
+#include "cluster/near_pairs.h"
+
+#include <mpi.h>
+
+#include "pair_gran.h"
+
+#include <memory>
+#include <vector>
+
+namespace eccentra::cluster {
+
+/// How several contacts of the same two bodies share damping.
+enum class ContactSharing { shared, parallel };
+
+/// The choices that a user types, also kept in restart files.
+struct ClusterContactWords {
+  ContactSharing sharing = ContactSharing::shared;
+  DampingLaw damping = DampingLaw::stock;
+  bool tangential_damping = true;
+};
+
+/// Pair style "gran/cluster". A PairGran, because stock code casts any style that has "gran" in its name to one.
+class PairGranCluster : public LAMMPS_NS::PairGran {
+ public:
+  explicit PairGranCluster(LAMMPS_NS::LAMMPS* lmp);
+  ~PairGranCluster() override;
+
+  const ClusterContactWords& words() const { return words_; }
+
+  void settings(int narg, char** arg) override;
+  void init_style() override;
+  void init_granular() override;
+  bool contact_match(const std::string type, const std::string model) override;
+  int64_t hashcode() override;
+  double stressStrainExponent() override;
+  void write_restart_settings(FILE* fp) override;
+  void read_restart_settings(FILE* fp, const int major, const int minor) override;
+  double memory_usage() override;
+  /// "contacts": number of sub-contacts of this rank (int), "near_pairs": pairs of bodies (int).
+  void* extract(const char* name, int& dim) override;
+
+ protected:
+  void compute_force(int eflag, int vflag, int addflag) override;
+
+ private:
+  struct PairInBlock {
+    int a, b;
+    int first, last; ///< contacts in the block
+    double separation[3];
+  };
+
+  void search_candidates(NearPair& p, const RelativePose& pose, float motion);
+  void gather(const NearPair& p, const double* offset, int old_first, int old_last);
+  int add_contact(const NearPair& p, int id, const double* offset, int& old, int old_last);
+  void flush();
+  template <DampingLaw law> void compute_block(int padded);
+  void share_damping();
+  void scatter(const PairInBlock& p);
+
+  ClusterContactWords words_;
+  FixBodies* bodies_ = nullptr;
+  std::unique_ptr<NearPairs> near_;
+  CandidateSearch search_;
+  std::vector<int> hits_;
+  std::vector<PairInBlock> in_block_;
+  ContactBlock block_ = {};
+  int filled_ = 0;      ///< contacts in the block
+  int block_start_ = 0; ///< of the block in the list under construction
+  bool advance_ = false;
+  double** youngs_ = nullptr;
+  double** shear_ = nullptr;
+  double** damping_ = nullptr;
+  double** friction_ = nullptr;
+  int contact_count_ = 0;
+  int near_count_ = 0;
+};
+
+} // namespace eccentra::cluster
