@@ -120,6 +120,12 @@ void FixFluidForce::reset_reaction() {
   elapsed_ = 0.0;
 }
 
+std::array<double, 3> FixFluidForce::received(int i) {
+  const double* impulse = arrays_.data(kImpulse) + kDimension * std::size_t(i);
+  const double* last = arrays_.data(kLast) + (kDimension + 1) * std::size_t(i);
+  return {impulse[0] - owed_ * last[0], impulse[1] - owed_ * last[1], impulse[2] - owed_ * last[2]};
+}
+
 void FixFluidForce::announce_source(const std::string& fix_id) {
   if (std::find(sources_.begin(), sources_.end(), fix_id) == sources_.end())
     sources_.push_back(fix_id);

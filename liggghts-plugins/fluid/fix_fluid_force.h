@@ -13,6 +13,7 @@
 
 #include "fix.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,9 @@ class FixFluidForce : public LAMMPS_NS::Fix {
   /// and end_of_step see is exact up to the half kick that the integrator still owes.
   FluidReaction reaction();
   void reset_reaction();
+  /// Of that, what local atom i has in its velocity Atom::v by now: without the half kick that the integrator owes [N
+  /// s].
+  std::array<double, 3> received(int i);
   /// The fix that fills samples(), by id; a second one is an error at set-up.
   void announce_source(const std::string& fix_id);
 

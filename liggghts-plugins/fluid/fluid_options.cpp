@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 #include <stdexcept>
 
 namespace eccentra::fluid {
@@ -45,6 +46,12 @@ constexpr DragEntry kDragLaws[] = {
 
 [[noreturn]] void fail(const std::string& text) {
   throw std::invalid_argument(text);
+}
+
+std::string shortest(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
 }
 
 /// Reads words one after the other, with the keyword at hand for messages.
@@ -94,7 +101,7 @@ class WordReader {
 
 double positive(double value, const std::string& what) {
   if (!(value > 0.0))
-    fail(what + " is " + std::to_string(value) + ": it must be greater than 0");
+    fail(what + " is " + shortest(value) + ": it must be greater than 0");
   return value;
 }
 
@@ -105,8 +112,7 @@ void read_rheology(WordReader& reader, Rheology& fluid) {
   if (model == "herschel_bulkley") {
     fluid.yield_stress = reader.number("TAU0 K N");
     if (fluid.yield_stress < 0.0)
-      fail("the yield stress TAU0 of 'rheology' is " + std::to_string(fluid.yield_stress) +
-           " Pa: it must be 0 or more");
+      fail("the yield stress TAU0 of 'rheology' is " + shortest(fluid.yield_stress) + " Pa: it must be 0 or more");
   } else if (model != "power_law" && model != "newtonian") {
     fail("'rheology' has '" + model + "': write herschel_bulkley TAU0 K N, power_law K N or newtonian MU");
   }
@@ -123,7 +129,7 @@ void read_sphericity(WordReader& reader, FluidOptions& options, int atom_types) 
   while (options.sphericity.empty() || reader.at_number()) {
     const double phi = reader.number("PHI, 0 < PHI <= 1");
     if (!(phi > 0.0 && phi <= 1.0))
-      fail("'sphericity' has " + std::to_string(phi) + ": it must be greater than 0 and at most 1");
+      fail("'sphericity' has " + shortest(phi) + ": it must be greater than 0 and at most 1");
     options.sphericity.push_back(phi);
   }
   const std::size_t count = options.sphericity.size();

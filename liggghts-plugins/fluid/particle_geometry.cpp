@@ -24,11 +24,17 @@ void ParticleGeometry::init() {}
 
 void ParticleGeometry::refresh() {}
 
-const double* ParticleGeometry::radius() const { return lmp_->atom->radius; }
+const double* ParticleGeometry::radius() const {
+  return lmp_->atom->radius;
+}
 
-const int* ParticleGeometry::kind() const { return lmp_->atom->type; }
+const int* ParticleGeometry::kind() const {
+  return lmp_->atom->type;
+}
 
-int ParticleGeometry::kinds() const { return lmp_->atom->ntypes + 1; }
+int ParticleGeometry::kinds() const {
+  return lmp_->atom->ntypes + 1;
+}
 
 ShapeFactors ParticleGeometry::factors(int kind) const {
   ShapeFactors shape;
@@ -36,10 +42,16 @@ ShapeFactors ParticleGeometry::factors(int kind) const {
   return shape;
 }
 
-double ParticleGeometry::inertia_factor(int) const { return kSphereInertia; }
+double ParticleGeometry::inertia_factor(int) const {
+  return kSphereInertia;
+}
 
-double ParticleGeometry::crosswise_sphericity(int, const double*) const { return 1.0; }
+double ParticleGeometry::crosswise_sphericity(int, const double*) const {
+  return 1.0;
+}
 
-double ParticleGeometry::radius_of(int i) const { return lmp_->atom->radius[i]; }
+double ParticleGeometry::radius_of(int i) const {
+  return lmp_->atom->radius[i];
+}
 
 } // namespace eccentra::fluid
