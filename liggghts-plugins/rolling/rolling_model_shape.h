@@ -33,7 +33,7 @@ template <> class RollingModel<ROLLING_SHAPE> : public RollingModelBase {
     eccentra::rolling::register_option(
         settings, kName, "form", form_,
         {{"limited", kLimited}, {"directional", kDirectional}, {"epsd", kSpringDashpot}});
-    settings.registerOnOff("torsionTorque", torsion_, false);
+    settings.registerOnOff("torsionTorque", torsion_, true);
     settings.registerDoubleSetting("rollingDampingRatio", damping_ratio_, kDefaultDampingRatio);
   }
 
@@ -155,12 +155,12 @@ template <> class RollingModel<ROLLING_SHAPE> : public RollingModelBase {
                                                                    cap, inertia, damping_ratio_, update->dt);
     if (contact.computeflag && contact.shearupdate)
       memory = torque.spring;
-    return torque.spring + torque.dashpot;
+    return torque.total;
   }
 
   bool is_wall_;
   bool configured_ = false;
-  bool torsion_ = false;
+  bool torsion_ = true;
   int form_ = kLimited;
   int memory_offset_ = -1;
   double damping_ratio_ = kDefaultDampingRatio;

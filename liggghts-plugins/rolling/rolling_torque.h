@@ -46,10 +46,11 @@ inline Eigen::Vector3d directional_torque(const Eigen::Vector3d& spin, double ca
   return squared > 0.0 ? Eigen::Vector3d(spin * (-cap / std::sqrt(squared))) : Eigen::Vector3d::Zero();
 }
 
-/// Elastic-plastic spring-dashpot, type C of Ai et al. (2011).
+/// Elastic-plastic spring-dashpot, type C of Ai et al. (2011), with the sum of spring and dashpot bounded by the cap: a
+/// fast start would otherwise meet a dashpot that resists many times more than the cap.
 struct SpringDashpot {
-  Eigen::Vector3d spring;  ///< torque of the spring, what the contact remembers
-  Eigen::Vector3d dashpot; ///< torque of the dashpot; zero once the spring is fully mobilised
+  Eigen::Vector3d spring; ///< torque of the spring, what the contact remembers
+  Eigen::Vector3d total;  ///< torque of both; the dashpot is off once the spring is fully mobilised
 };
 
 /// Rolling stiffness [N m]: k_r = 2.25 k_n (mu R)^2, k_n [N/m] the secant stiffness F_n / delta.
@@ -66,9 +67,12 @@ inline SpringDashpot spring_dashpot(const Eigen::Vector3d& remembered, const Eig
                                     double cap, double inertia, double damping_ratio, double dt) {
   const Eigen::Vector3d trial = remembered - stiffness * dt * spin;
   const double squared = trial.squaredNorm();
-  if (squared > cap * cap)
-    return {trial * (cap / std::sqrt(squared)), Eigen::Vector3d::Zero()};
-  return {trial, -2.0 * damping_ratio * std::sqrt(inertia * stiffness) * spin};
+  if (squared > cap * cap) {
+    const Eigen::Vector3d mobilised = trial * (cap / std::sqrt(squared));
+    return {mobilised, mobilised};
+  }
+  const double dashpot = 2.0 * damping_ratio * std::sqrt(inertia * stiffness);
+  return {trial, bounded(trial - dashpot * spin, cap)};
 }
 
 } // namespace eccentra::rolling
