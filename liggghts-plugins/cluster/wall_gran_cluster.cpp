@@ -3,6 +3,9 @@
 // fix wall/gran/cluster: lists, forces, output and transport of history.
 #include "cluster/wall_gran_cluster.h"
 
+#include "cluster/bodies.h"
+#include "cluster/shared_contacts.h"
+#include "cluster/wall_gaps.h"
 #include "host/style_registry.h"
 
 #include "atom.h"
@@ -15,6 +18,8 @@
 #include "property_registry.h"
 #include "update.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 
@@ -31,8 +36,15 @@ const host::RegisterFix<FixWallGranCluster> record("wall/gran/cluster",
 // do not find us.
 constexpr const char* kInnerStyle = "cluster/wall/gran";
 
+// Contacts are collected from body after body until so many are together: whole vectors, and still in the cache.
+constexpr std::size_t kBatch = 64;
+
 Eigen::Vector3d vector3(const double* v) {
   return {v[0], v[1], v[2]};
+}
+
+Eigen::Matrix3d row_major(const double* m) {
+  return Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(m);
 }
 
 void add(double* sum, const Eigen::Vector3d& v) {
@@ -51,12 +63,23 @@ FixWallGranCluster::FixWallGranCluster(LAMMPS* lmp, int narg, char** arg) : Fix(
     fail("needs atoms with radius, mass and rotation: use 'atom_style granular'");
   try {
     words_ = read_wall_words({arg + 3, arg + narg});
+    smallest_type_ = largest_type_ = words_.type;
+    if (!words_.meshes.empty()) {
+      if (words_.meshes.size() > WallContactKey::kMaxMeshes)
+        throw std::invalid_argument("n_meshes " + std::to_string(words_.meshes.size()) + " exceeds " +
+                                    std::to_string(WallContactKey::kMaxMeshes) +
+                                    " meshes: share them out to more fixes");
+      meshes_ = std::make_unique<WallMeshes>(lmp, words_.meshes);
+      meshes_->find();
+      smallest_type_ = meshes_->smallest_type();
+      largest_type_ = meshes_->largest_type();
+    }
   } catch (const std::invalid_argument& problem) {
     fail(problem.what());
   }
-  if (words_.surface && words_.type > atom->ntypes)
-    fail("type " + std::to_string(words_.type) + " exceeds the " + std::to_string(atom->ntypes) +
-         " atom types of create_box: give the wall's material there");
+  if (largest_type_ > atom->ntypes)
+    fail("type " + std::to_string(largest_type_) + " exceeds the " + std::to_string(atom->ntypes) +
+         " atom types of create_box: make room for the wall's material there");
 
   scalar_flag = 1;
   extscalar = 1;
@@ -68,6 +91,7 @@ FixWallGranCluster::FixWallGranCluster(LAMMPS* lmp, int narg, char** arg) : Fix(
   create_attribute = 1;
   time_depend = 0;
 
+  block_ = std::make_unique<ContactBlock>();
   grow_arrays(atom->nmax);
   atom->add_callback(0);
   atom->add_callback(1);
@@ -88,10 +112,21 @@ int FixWallGranCluster::setmask() {
 }
 
 int FixWallGranCluster::min_type() {
-  return words_.type;
+  return smallest_type_;
 }
 int FixWallGranCluster::max_type() {
-  return words_.type;
+  return largest_type_;
+}
+
+void FixWallGranCluster::post_create() {
+  just_created = 0; // else Modify::setup wipes the history that a restart file has brought
+  if (meshes_)
+    meshes_->create_neighbour_lists(groupbit);
+}
+
+void FixWallGranCluster::pre_delete(bool unfix) {
+  if (unfix && meshes_)
+    meshes_->delete_neighbour_lists();
 }
 
 void FixWallGranCluster::init() {
@@ -109,6 +144,18 @@ void FixWallGranCluster::init() {
   registry.connect("coeffFrict", friction_, caller);
   if (words_.rolling)
     words_.rolling->init(lmp);
+  if (meshes_)
+    try {
+      meshes_->find();
+    } catch (const std::invalid_argument& problem) {
+      fail(problem.what());
+    }
+  bodies_ = FixBodies::find(lmp);
+  if (bodies_)
+    for (int id = 0; id < bodies_->shapes().size(); ++id)
+      if (bodies_->shapes().surface(id).count > WallContactKey::kMaxSubSpheres)
+        fail("shape '" + bodies_->shapes()[id].name() + "' has more than " +
+             std::to_string(WallContactKey::kMaxSubSpheres) + " surface sub-spheres: use fewer");
   near_list_stale_ = true;
 }
 
@@ -123,72 +170,187 @@ void FixWallGranCluster::pre_neighbor() {
 
 void FixWallGranCluster::rebuild_near_list() {
   near_.clear();
-  for (int i = 0; i < atom->nlocal; ++i) {
-    if (!(atom->mask[i] & groupbit))
-      continue;
-    if (words_.surface->distance(vector3(atom->x[i])) <= atom->radius[i] + neighbor->skin)
-      near_.push_back(i);
+  if (meshes_) {
+    meshes_->invert_neighbour_lists(groupbit, near_);
+  } else {
+    for (int i = 0; i < atom->nlocal; ++i)
+      if ((atom->mask[i] & groupbit) &&
+          words_.surface->distance(vector3(atom->x[i])) <= atom->radius[i] + neighbor->skin)
+        near_.push_back(i);
+  }
+  std::size_t next = 0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (next < near_.size() && near_[next] == i)
+      ++next;
     else
       history_[i].clear();
-  }
   near_list_stale_ = false;
 }
 
+bool FixWallGranCluster::is_plain_sphere(int i) const {
+  return !bodies_ || bodies_->shape_id(i) == FixBodies::plain_sphere;
+}
+
+void FixWallGranCluster::find_touches(int i) {
+  if (meshes_)
+    collect_mesh(i);
+  else
+    collect_primitive(i);
+}
+
 void FixWallGranCluster::collect(int i) {
-  contacts_.clear();
+  const std::size_t first = touches_.size();
+  find_touches(i);
+  if (touches_.size() == first) {
+    history_[i].clear();
+    return;
+  }
+  next_history_.clear();
+  for (std::size_t m = first; m < touches_.size(); ++m) {
+    touches_[m].slot = static_cast<int>(next_history_.size());
+    next_history_.push_back({touches_[m].key, old_shear(i, touches_[m])});
+  }
+  history_[i].swap(next_history_);
+  if (!words_.shared || touches_.size() == first + 1)
+    return;
+  // Within one fix the particle's material is one; walls of several materials weigh by their modulus.
+  const auto stiffness = [&](const WallTouch& touch) {
+    return youngs_[atom->type[i]][touch.wall_type] * std::sqrt(touch.radius * touch.overlap);
+  };
+  SharedStiffness all;
+  for (std::size_t m = first; m < touches_.size(); ++m)
+    all.add(stiffness(touches_[m]), touches_[m].normal.x(), touches_[m].normal.y(), touches_[m].normal.z());
+  for (std::size_t m = first; m < touches_.size(); ++m)
+    touches_[m].share = all.damping_share(stiffness(touches_[m]), touches_[m].normal.x(), touches_[m].normal.y(),
+                                          touches_[m].normal.z());
+}
+
+void FixWallGranCluster::collect_primitive(int i) {
   const WallSurface& surface = *words_.surface;
   const Eigen::Vector3d x = vector3(atom->x[i]);
-  const double radius = atom->radius[i];
-  const WallPoint point = surface.nearest(x);
-  if (point.distance >= radius)
+  if (surface.distance(x) >= atom->radius[i]) // of the bounding sphere
     return;
-  const double overlap = radius - point.distance;
-  contacts_.push_back({WallContactKey(0, 0, 0), point.normal, -(radius - 0.5 * overlap) * point.normal,
-                       surface.velocity_at(x - point.distance * point.normal), surface.angular_velocity(), overlap,
-                       radius, 1.0, words_.type});
-}
-
-WallMaterial FixWallGranCluster::material(int particle_type, int wall_type) const {
-  return {youngs_[particle_type][wall_type], shear_[particle_type][wall_type], damping_[particle_type][wall_type],
-          friction_[particle_type][wall_type]};
-}
-
-void FixWallGranCluster::add_forces(int i) {
-  const bool update_history = !update->setupflag;
-  const Eigen::Vector3d velocity = vector3(atom->v[i]);
-  const Eigen::Vector3d omega = vector3(atom->omega[i]);
-  const Eigen::Vector3d from_reference =
-      vector3(atom->x[i]) - (words_.surface ? words_.surface->reference() : Eigen::Vector3d::Zero());
-  const int type = atom->type[i];
-  WallHistory::Entries& old_history = history_[i];
-  next_history_.clear();
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();
-  for (const Contact& c : contacts_) {
-    WallHistoryEntry entry{c.key, Eigen::Vector3d::Zero()};
-    for (const WallHistoryEntry& old : old_history)
-      if (old.key == c.key) {
-        entry.shear = old.shear;
-        break;
-      }
-    const WallContact contact{
-        c.normal, velocity + omega.cross(c.lever) - c.wall_velocity, c.overlap, c.radius, atom->rmass[i], c.share};
-    const WallForce result = hertz_mindlin_wall(material(type, c.wall_type), contact, update->dt, update_history,
-                                                words_.limit_force, words_.tangential_damping, entry.shear);
-    next_history_.push_back(entry);
-    force += result.force;
-    Eigen::Vector3d moment = c.lever.cross(result.force);
-    if (words_.rolling)
-      moment += words_.rolling->torque(
-          {i, type, c.wall_type, result.elastic_normal, c.radius, c.normal, omega - c.wall_omega});
-    torque += moment;
+  const auto touch = [&](int sub, const Eigen::Vector3d& arm, double radius) {
+    const WallPoint point = surface.nearest(x + arm);
+    const double overlap = radius - point.distance;
+    const Eigen::Vector3d to_wall = arm - point.distance * point.normal;
+    touches_.push_back({i, 0, WallContactKey(sub, 0, 0), point.normal, arm - (radius - 0.5 * overlap) * point.normal,
+                        to_wall, surface.velocity_at(x + to_wall), surface.angular_velocity(), overlap, radius, 1.0,
+                        words_.type, -1});
+  };
+  if (is_plain_sphere(i)) {
+    touch(0, Eigen::Vector3d::Zero(), atom->radius[i]);
+    return;
   }
-  old_history.swap(next_history_);
+  const SurfaceSpheres& spheres = bodies_->shapes().surface(bodies_->shape_id(i));
+  const Eigen::Matrix3d rotation = row_major(bodies_->rotation(i));
+  gaps_.resize(spheres.count);
+  wall_gaps(surface, x, rotation, spheres, gaps_.data());
+  for (int k = 0; k < spheres.count; ++k)
+    if (gaps_[k] < 0.0)
+      touch(k, rotation * Eigen::Vector3d(spheres.x[k], spheres.y[k], spheres.z[k]), spheres.r[k]);
+}
+
+void FixWallGranCluster::collect_mesh(int i) {
+  const Eigen::Vector3d x = vector3(atom->x[i]);
+  if (is_plain_sphere(i)) {
+    meshes_->for_each_near(i, [&](int mesh, int triangle) {
+      meshes_->touch(mesh, triangle, i, 0, x, Eigen::Vector3d::Zero(), atom->radius[i], touches_);
+    });
+    return;
+  }
+  const SurfaceSpheres& spheres = bodies_->shapes().surface(bodies_->shape_id(i));
+  const Eigen::Matrix3d rotation = row_major(bodies_->rotation(i));
+  gaps_.resize(spheres.count);
+  meshes_->for_each_near(i, [&](int mesh, int triangle) {
+    const WallSurface plane = meshes_->plane(mesh, triangle);
+    if (plane.distance(x) >= atom->radius[i]) // of the bounding sphere
+      return;
+    wall_gaps(plane, x, rotation, spheres, gaps_.data());
+    for (int k = 0; k < spheres.count; ++k)
+      if (gaps_[k] < 0.0)
+        meshes_->touch(mesh, triangle, i, k, x, rotation * Eigen::Vector3d(spheres.x[k], spheres.y[k], spheres.z[k]),
+                       spheres.r[k], touches_);
+  });
+}
+
+Eigen::Vector3d FixWallGranCluster::old_shear(int i, const WallTouch& touch) const {
+  const WallHistory::Entries& entries = history_[i];
+  for (const WallHistoryEntry& old : entries)
+    if (old.key == touch.key)
+      return old.shear;
+  if (meshes_)
+    for (const WallHistoryEntry& old : entries)
+      if (old.key.sub() == touch.key.sub() && old.key.mesh() == touch.key.mesh() &&
+          meshes_->coplanar(touch.key.mesh(), old.key.triangle(), touch.key.triangle()))
+        return old.shear;
+  return Eigen::Vector3d::Zero();
+}
+
+// The wall is body B of the contact law: the contact point is its centre, so it has no arm and its spin adds nothing.
+void FixWallGranCluster::fill(int m, const WallTouch& touch) {
+  ContactBlock& block = *block_;
+  const int i = touch.atom;
+  const int type = atom->type[i];
+  const Eigen::Vector3d to_centre = touch.lever + (touch.radius - 0.5 * touch.overlap) * touch.normal;
+  const Eigen::Vector3d& shear = history_[i][touch.slot].shear;
+  for (int k = 0; k < 3; ++k) {
+    block.normal[k][m] = touch.normal[k];
+    block.arm_a[k][m] = to_centre[k];
+    block.arm_b[k][m] = 0.0;
+    block.velocity[k][m] = atom->v[i][k] - touch.wall_velocity[k];
+    block.omega_a[k][m] = atom->omega[i][k];
+    block.omega_b[k][m] = 0.0;
+    block.history[k][m] = shear[k];
+  }
+  block.radius_a[m] = touch.radius;
+  block.radius_b[m] = 0.5 * touch.overlap;
+  block.overlap[m] = touch.overlap;
+  block.contact_radius[m] = std::sqrt(touch.radius * touch.overlap);
+  block.mass[m] = atom->rmass[i];
+  block.youngs[m] = youngs_[type][touch.wall_type];
+  block.shear_modulus[m] = shear_[type][touch.wall_type];
+  block.damping[m] = -damping_[type][touch.wall_type];
+  block.friction[m] = friction_[type][touch.wall_type];
+  block.share[m] = touch.share;
+}
+
+void FixWallGranCluster::scatter(int m, const WallTouch& touch) {
+  const ContactBlock& block = *block_;
+  const int i = touch.atom;
+  const auto row = [m](const ContactBlock::Row* rows) { return Eigen::Vector3d(rows[0][m], rows[1][m], rows[2][m]); };
+  history_[i][touch.slot].shear = row(block.history);
+  const Eigen::Vector3d force = row(block.force);
+  Eigen::Vector3d torque = row(block.torque_a);
+  if (words_.rolling) {
+    const double kn = 4. / 3. * block.youngs[m] * block.contact_radius[m];
+    torque += words_.rolling->torque({i, atom->type[i], touch.wall_type, kn * touch.overlap, touch.radius, touch.normal,
+                                      vector3(atom->omega[i]) - touch.wall_omega});
+  }
   add(atom->f[i], force);
   add(atom->torque[i], torque);
+  Eigen::Vector3d from_reference = vector3(atom->x[i]);
+  if (words_.surface)
+    from_reference -= words_.surface->reference();
   add(&local_sums_[0], -force);
   add(&local_sums_[3], -(from_reference.cross(force) + torque));
-  local_sums_[6] += static_cast<double>(contacts_.size());
+  local_sums_[6] += 1.0;
+  if (meshes_)
+    meshes_->report(touch, force);
+}
+
+void FixWallGranCluster::add_forces() {
+  const bool advance = !update->setupflag;
+  const int all = static_cast<int>(touches_.size());
+  for (int first = 0; first < all; first += ContactBlock::capacity) {
+    const int n = std::min(all - first, static_cast<int>(ContactBlock::capacity));
+    for (int m = 0; m < n; ++m)
+      fill(m, touches_[first + m]);
+    contact_forces<DampingLaw::stock>(*block_, n, update->dt, advance);
+    for (int m = 0; m < n; ++m)
+      scatter(m, touches_[first + m]);
+  }
+  touches_.clear();
 }
 
 void FixWallGranCluster::post_force(int) {
@@ -196,13 +358,13 @@ void FixWallGranCluster::post_force(int) {
     rebuild_near_list();
   local_sums_.fill(0.0);
   summed_at_ = -1;
+  touches_.clear();
   for (const int i : near_) {
     collect(i);
-    if (!contacts_.empty())
-      add_forces(i);
-    else
-      history_[i].clear();
+    if (touches_.size() > kBatch)
+      add_forces();
   }
+  add_forces();
 }
 
 double FixWallGranCluster::compute_vector(int n) {

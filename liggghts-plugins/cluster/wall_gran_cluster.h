@@ -3,8 +3,10 @@
 // fix wall/gran/cluster: walls for clusters and plain spheres, with the wall's velocity taken at the contact point.
 #pragma once
 
-#include "cluster/wall_contact_law.h"
+#include "cluster/contact_law.h"
+#include "cluster/wall_contact.h"
 #include "cluster/wall_history.h"
+#include "cluster/wall_mesh.h"
 #include "cluster/wall_words.h"
 
 #include <mpi.h>
@@ -12,9 +14,12 @@
 #include "fix.h"
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace eccentra::cluster {
+
+class FixBodies;
 
 /// Scalar: number of (sub-)contacts. Vector: force on the wall (1-3) [N] and torque on the wall (4-6) [N m] about a
 /// point of the plane or of the cylinder's axis (meshes: about the origin).
@@ -24,6 +29,8 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   ~FixWallGranCluster() override;
 
   int setmask() override;
+  void post_create() override;
+  void pre_delete(bool unfix) override;
   void init() override;
   void setup(int) override;
   void pre_neighbor() override;
@@ -31,6 +38,19 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
 
   double compute_scalar() override;
   double compute_vector(int n) override;
+
+  /// Visits the contacts that there are now, for whoever wants to know (fix timestep/limit). Forces and history stay.
+  template <class Visit> void for_each_touch(Visit visit) {
+    if (near_list_stale_)
+      rebuild_near_list();
+    for (const int i : near_) {
+      touches_.clear();
+      find_touches(i);
+      for (const WallTouch& touch : touches_)
+        visit(touch);
+    }
+    touches_.clear();
+  }
 
   // History migrates and restarts.
   void grow_arrays(int nmax) override;
@@ -49,30 +69,32 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   int max_type() override;
 
  private:
-  /// One contact of the particle at hand.
-  struct Contact {
-    WallContactKey key;
-    Eigen::Vector3d normal;
-    Eigen::Vector3d lever; ///< from the body's centre to the contact point
-    Eigen::Vector3d wall_velocity;
-    Eigen::Vector3d wall_omega;
-    double overlap;
-    double radius;
-    double share;
-    int wall_type;
-  };
-
   [[noreturn]] void fail(const std::string& sentence);
   void rebuild_near_list();
+  /// Appends the contacts of local atom i to touches_ and makes them the atom's history.
   void collect(int i);
-  void add_forces(int i);
-  WallMaterial material(int particle_type, int wall_type) const;
+  void find_touches(int i);
+  void collect_primitive(int i);
+  void collect_mesh(int i);
+  /// Tangential displacement with which a contact of this atom goes on: its own, or that of a coplanar triangle before.
+  Eigen::Vector3d old_shear(int i, const WallTouch& touch) const;
+  /// Forces of all collected contacts, a block at a time.
+  void add_forces();
+  void fill(int m, const WallTouch& touch);
+  void scatter(int m, const WallTouch& touch);
+  bool is_plain_sphere(int i) const;
 
   WallWords words_;
+  std::unique_ptr<WallMeshes> meshes_; ///< null: a primitive wall
+  int smallest_type_ = 0;
+  int largest_type_ = 0;
+  FixBodies* bodies_ = nullptr; ///< null where the scene has no clusters
   WallHistory history_;
   std::vector<int> near_; ///< local atoms that may touch before the next neighbour build
   bool near_list_stale_ = true;
-  std::vector<Contact> contacts_;      ///< of the particle at hand
+  std::vector<WallTouch> touches_; ///< of the particles at hand
+  std::vector<double> gaps_;       ///< of the sub-spheres of the particle at hand
+  std::unique_ptr<ContactBlock> block_;
   WallHistory::Entries next_history_;  ///< of the particle at hand
   std::array<double, 7> local_sums_{}; ///< force, torque, number of contacts on this rank
   std::array<double, 7> global_sums_{};

@@ -46,6 +46,7 @@ class WallHistory {
 
   void grow(int atoms) { of_atom_.resize(atoms); }
   Entries& operator[](int i) { return of_atom_[i]; }
+  const Entries& operator[](int i) const { return of_atom_[i]; }
   void move(int from, int to) {
     if (from != to)
       of_atom_[to] = std::move(of_atom_[from]);

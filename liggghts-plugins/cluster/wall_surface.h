@@ -35,6 +35,9 @@ class WallSurface {
   const Eigen::Vector3d& reference() const { return reference_; }
   /// Unit normal of the plane, or unit vector along the cylinder's axis.
   const Eigen::Vector3d& direction() const { return direction_; }
+  /// Two unit vectors that span, with direction(), a right-handed frame.
+  const Eigen::Vector3d& across() const { return across_; }
+  const Eigen::Vector3d& across2() const { return across2_; }
   double radius() const { return radius_; }
 
   /// Angular velocity about the axis through reference() [rad/s], right-handed along direction().
@@ -65,8 +68,7 @@ class WallSurface {
       return {std::abs(along), along < 0.0 ? Eigen::Vector3d(-direction_) : direction_};
     const Eigen::Vector3d radial = from_reference - along * direction_;
     const double r = radial.norm();
-    const Eigen::Vector3d outward =
-        r > 0.0 ? Eigen::Vector3d(radial / r) : Eigen::Vector3d(direction_.unitOrthogonal());
+    const Eigen::Vector3d outward = r > 0.0 ? Eigen::Vector3d(radial / r) : across_;
     if (r > radius_)
       return {r - radius_, outward};
     return {radius_ - r, -outward};
@@ -75,11 +77,14 @@ class WallSurface {
  private:
   enum class Kind { plane, cylinder };
   WallSurface(Kind kind, const Eigen::Vector3d& reference, const Eigen::Vector3d& direction, double radius)
-      : kind_(kind), reference_(reference), direction_(direction), radius_(radius) {}
+      : kind_(kind), reference_(reference), direction_(direction), across_(direction.unitOrthogonal()),
+        across2_(direction.cross(across_)), radius_(radius) {}
 
   Kind kind_;
   Eigen::Vector3d reference_;
   Eigen::Vector3d direction_;
+  Eigen::Vector3d across_;
+  Eigen::Vector3d across2_;
   double radius_;
   Eigen::Vector3d omega_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();

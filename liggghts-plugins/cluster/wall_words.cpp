@@ -47,12 +47,6 @@ class Reader {
       throw std::invalid_argument(name + " must be a whole number of at least 1, not '" + words_[at - 1] + "'");
     return static_cast<int>(value);
   }
-  bool on_off(const std::string& name) {
-    const std::string& word = next("on or off after " + name);
-    if (word != "on" && word != "off")
-      throw std::invalid_argument(name + " must be on or off, not '" + word + "'");
-    return word == "on";
-  }
   Eigen::Vector3d vector(const std::string& name) {
     const double x = number(name + " x");
     const double y = number(name + " y");
@@ -165,18 +159,13 @@ WallWords read_wall_words(const std::vector<std::string>& all) {
       if (value != "shared" && value != "parallel")
         throw std::invalid_argument("contacts must be shared or parallel, not '" + value + "'");
       words.shared = value == "shared";
-    } else if (word == "limitForce") {
-      words.limit_force = reader.on_off(word);
-    } else if (word == "tangential_damping") {
-      words.tangential_damping = reader.on_off(word);
     } else if (word == "primitive") {
       read_primitive(reader, words);
     } else if (word == "mesh") {
       read_meshes(reader, words);
     } else {
-      throw std::invalid_argument(
-          "unknown word '" + word +
-          "': rolling_friction, contacts, limitForce, tangential_damping, primitive and mesh are there");
+      throw std::invalid_argument("unknown word '" + word +
+                                  "': rolling_friction, contacts, primitive and mesh are there");
     }
   }
   if (!words.surface && words.meshes.empty())

@@ -15,8 +15,6 @@ namespace eccentra::cluster {
 
 struct WallWords {
   bool shared = false;                  ///< contacts shared (else parallel)
-  bool limit_force = false;             ///< limitForce
-  bool tangential_damping = true;       ///< tangential_damping
   std::unique_ptr<WallRolling> rolling; ///< null: rolling_friction off
   std::optional<WallSurface> surface;   ///< primitive wall
   int type = 0;                         ///< material of a primitive wall

@@ -145,3 +145,96 @@ TEST(WallSpheres, WallForceAndTorqueBalanceTheParticle) {
   }
   EXPECT_EQ(floor->compute_scalar(), 1.0);
 }
+
+TEST(WallSpheres, RollingFrictionSeesTheSpinRelativeToTheWall) {
+  const auto torque = [](const std::string& rolling, double spin) {
+    LiggghtsSession session;
+    session.script(wall_scene(1e-5));
+    session.script("create_atoms 1 single " + std::to_string(0.05 - kRadius + 1e-5) + R"( 0 0 units box
+      set group all diameter 6.35e-3 density 2619
+      set group all omegaz )" +
+                   std::to_string(spin) + R"(
+      fix wall all wall/gran/cluster model hertz tangential history rolling_friction )" +
+                   rolling + R"( primitive type 1 zcylinder 0.05 0 0 rotate 5
+      fix integrate all nve/sphere
+      run 0
+    )");
+    double value = 0;
+    const int i = session.local(1);
+    if (i >= 0)
+      value = session.atom().torque[i][2];
+    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    return value;
+  };
+  EXPECT_EQ(torque("cdt", 5), torque("off", 5)); // turns with the wall: nothing rolls
+  EXPECT_LT(torque("cdt", 6), torque("off", 6)); // faster than the wall: is held back
+  EXPECT_GT(torque("cdt", 4), torque("off", 4)); // slower: is taken along
+}
+
+TEST(WallSpheres, SlidingAcrossRanksIsStocks) {
+  const auto slide = [](const std::string& style) {
+    LiggghtsSession session;
+    session.script(wall_scene(1e-5, "0.5"));
+    session.script(R"(
+      create_atoms 1 single -0.002 0.01 -0.0918 units box
+      set group all diameter 6.35e-3 density 2619
+      velocity all set 0.4 0.05 0
+      fix gravity all gravity 9.81 vector 0 0 -1
+      fix floor all )" +
+                   style + R"( model hertz tangential history primitive type 1 zplane -0.095
+      fix integrate all nve/sphere
+      run 3000
+    )");
+    return state_of(session, 1);
+  };
+  const auto ours = slide("wall/gran/cluster");
+  const auto stock = slide("wall/gran");
+  EXPECT_GT(ours[0], 0.002); // it has crossed the border between the ranks
+  for (int k = 0; k < 9; ++k)
+    EXPECT_NEAR(ours[k], stock[k], 1e-11 * (k < 6 ? 1 : 100));
+}
+
+TEST(WallSpheres, RestartGoesOnToTheLastDigit) {
+  const std::string wall =
+      "fix floor all wall/gran/cluster model hertz tangential history primitive type 1 zplane -0.095\n";
+  const std::string physics = R"(
+    fix gravity all gravity 9.81 vector 0.3 0 -1
+    fix integrate all nve/sphere
+  )";
+  const auto run = [&](const std::string& steps) {
+    LiggghtsSession session;
+    session.script(wall_scene(1e-5));
+    session.script(R"(
+      create_atoms 1 single 0.01 0.01 -0.0919 units box
+      set group all diameter 6.35e-3 density 2619
+    )");
+    session.script(physics + wall + steps);
+    return state_of(session, 1);
+  };
+  const auto straight = run("run 1000\nrun 1500");
+  run("run 1000\nwrite_restart walls.restart");
+  // From the file: materials are input, not state.
+  LiggghtsSession session;
+  session.script(R"(
+    atom_style granular
+    atom_modify map array
+    newton off
+    communicate single vel yes
+    units si
+    read_restart walls.restart
+    neighbor 0.002 bin
+    neigh_modify delay 0
+    fix m1 all property/global youngsModulus peratomtype 5e6 5e6
+    fix m2 all property/global poissonsRatio peratomtype 0.3 0.3
+    fix m3 all property/global coefficientRestitution peratomtypepair 2 0.9 0.9 0.9 0.9
+    fix m4 all property/global coefficientFriction peratomtypepair 2 0.5 0.5 0.5 0.5
+    fix m5 all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.1 0.1 0.1
+    pair_style gran model hertz tangential history
+    pair_coeff * *
+    timestep 1e-5
+  )");
+  session.script(physics + wall + "run 1500");
+  const auto restarted = state_of(session, 1);
+  for (int k = 0; k < 9; ++k)
+    EXPECT_EQ(restarted[k], straight[k]) << "component " << k;
+}

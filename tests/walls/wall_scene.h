@@ -22,6 +22,7 @@ inline std::string wall_scene(double timestep, const std::string& e = "0.9",
     boundary )" +
          boundary + R"(
     newton off
+    processors * 1 1
     communicate single vel yes
     units si
     region box block -0.1 0.1 -0.1 0.1 -0.1 0.1 units box
