@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// annulusReport: table, CSV, charts and pictures of one or more case folders.
+#include "report/bed_picture.h"
+#include "report/charts.h"
+#include "report/html_page.h"
+#include "report/off_screen_display.h"
+#include "report/summary.h"
+
+#include <CLI/CLI.hpp>
+#include <vtkObject.h>
+
+#include <cstdio>
+#include <exception>
+#include <fstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace eccentra::report;
+
+void write(const fs::path& file, const std::string& text) {
+  std::ofstream stream(file);
+  stream << text;
+  stream.close();
+  if (!stream)
+    throw std::runtime_error(file.string() + ": cannot be written: check the folder and the space on the disk");
+}
+
+int run(int argc, char** argv) {
+  CLI::App app(
+      "Concentration, bed, fluxes, pressure gradient and cost of coupled runs: a table, CSV, charts and pictures.\n"
+      "Reads CASE/system/annulusMeshDict, CASE/postProcessing/eccentra/coupling.csv, the particles that the run\n"
+      "dumped (CASE/post/particles*.vtk, spheres*.vtk) and the last flow written. Several cases: side by side.");
+  app.name("annulusReport");
+  std::vector<std::string> folders;
+  std::string out;
+  double share = 0.5;
+  std::size_t layers = 40;
+  bool pictures = true;
+  bool html = false;
+  app.add_option("CASE", folders, "case folders")->required();
+  app.add_option("-o,--output", out, "folder for what is written (default: CASE/report of the first case)");
+  app.add_option("--share", share, "the last part of the run that means are taken over (default 0.5)");
+  app.add_option("--layers", layers, "layers of the concentration profile (default 40)")->check(CLI::Range(2, 1000));
+  app.add_flag("!--no-pictures", pictures, "table and CSV alone");
+  app.add_flag("--html", html, "also report.html: one page that needs no other file");
+  app.set_version_flag("--version", ECCENTRA_REPORT_VERSION);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0)
+      return app.exit(error);
+    throw std::runtime_error(std::string(error.what()) + ": see annulusReport --help");
+  }
+
+  std::vector<Case> cases;
+  std::vector<Summary> summaries;
+  for (const std::string& folder : folders) {
+    cases.push_back(read_case(folder));
+    summaries.push_back(summarise(cases.back(), share, layers));
+  }
+  const fs::path folder = out.empty() ? fs::path(folders.front()) / "report" : fs::path(out);
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed)
+    throw std::runtime_error(folder.string() + ": cannot be made: " + failed.message());
+  const std::string table = to_text(summaries);
+  std::fputs(table.c_str(), stdout);
+  write(folder / "summary.txt", table);
+  write(folder / "summary.csv", to_csv(summaries));
+  write(folder / "profile.csv", profile_csv(summaries));
+  if (pictures) {
+    const OffScreenDisplay display;
+    vtkObject::GlobalWarningDisplayOff();
+    draw_charts(cases, summaries, folder / "charts.png");
+    draw_beds(cases, folder / "beds.png");
+  }
+  if (html)
+    write(folder / "report.html", html_page(summaries, folder));
+  std::printf("written: %s\n", folder.c_str());
+  return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fflush(stdout);
+    std::fprintf(stderr, "annulusReport: error: %s\n", error.what());
+    return 1;
+  }
+}

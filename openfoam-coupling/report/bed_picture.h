@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The picture of the beds: bodies coloured by speed in front of the fluid's speed on the plane through both axes.
+#pragma once
+
+#include "report/case_data.h"
+
+namespace eccentra::report {
+
+/// One column per case, as it lies in the world (gravity points down): above, the half of the hole behind the plane
+/// through both axes taken away; below, the cross-section at half length. All in one scale of length and of colour.
+/// Writes a PNG. Needs a display (OffScreenDisplay).
+void draw_beds(const std::vector<Case>& cases, const std::filesystem::path& file);
+
+} // namespace eccentra::report

@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Implements case_data.h.
+#include "report/case_data.h"
+
+#include <vtkAppendFilter.h>
+#include <vtkAppendPolyData.h>
+#include <vtkCompositeDataIterator.h>
+#include <vtkDataArray.h>
+#include <vtkInformation.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkPOpenFOAMReader.h>
+#include <vtkPointData.h>
+#include <vtkPolyDataReader.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+namespace eccentra::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& file, const std::string& remedy) {
+  std::ifstream stream(file);
+  if (!stream)
+    throw std::runtime_error(file.string() + ": cannot be read: " + remedy);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The text without the comments of OpenFOAM's dictionaries.
+std::string without_comments(const std::string& text) {
+  static const std::regex comments(R"(//[^\n]*|/\*[^]*?\*/)");
+  return std::regex_replace(text, comments, "");
+}
+
+double entry(const std::string& text, const fs::path& file, const std::string& keyword, double missing, bool required) {
+  std::smatch match;
+  if (!std::regex_search(text, match, std::regex("(?:^|[\\s;}])" + keyword + R"(\s+([^;]+);)"))) {
+    if (required)
+      throw std::runtime_error(file.string() + ": the entry '" + keyword + "' is missing");
+    return missing;
+  }
+  try {
+    std::size_t used = 0;
+    const std::string value = match.str(1);
+    const double number = std::stod(value, &used);
+    if (value.find_first_not_of(" \t\n", used) == std::string::npos && std::isfinite(number))
+      return number;
+  } catch (const std::exception&) { // the sentence below says it
+  }
+  throw std::runtime_error(file.string() + ": '" + keyword + " " + match.str(1) + "' is not a number");
+}
+
+/// Particle files in the usual places, by the start of their names, in the order of their steps.
+std::vector<ParticleFile> find_files(const fs::path& folder, const std::regex& pattern) {
+  std::vector<ParticleFile> files;
+  for (const char* place : {"postProcessing/eccentra", "post", "."}) {
+    const fs::path where = folder / place;
+    if (!fs::is_directory(where))
+      continue;
+    for (const auto& item : fs::directory_iterator(where)) {
+      std::smatch match;
+      const std::string name = item.path().filename().string();
+      if (std::regex_match(name, match, pattern))
+        files.push_back({item.path(), std::stol(match.str(1))});
+    }
+    if (!files.empty())
+      break;
+  }
+  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.step < b.step; });
+  return files;
+}
+
+} // namespace
+
+Table read_csv(const fs::path& file) {
+  std::istringstream lines(text_of(file, "the run writes it; has it started?"));
+  Table table;
+  std::string line;
+  std::getline(lines, line);
+  std::istringstream names(line);
+  for (std::string name; std::getline(names, name, ',');) {
+    table.names.push_back(name);
+    table.columns[name];
+  }
+  if (table.names.empty())
+    throw std::runtime_error(file.string() + ": the first line must hold the names of the columns");
+  for (std::size_t number = 2; std::getline(lines, line); ++number) {
+    std::vector<double> values;
+    std::istringstream words(line);
+    for (std::string word; std::getline(words, word, ',');) {
+      char* end = nullptr;
+      values.push_back(std::strtod(word.c_str(), &end));
+      if (word.empty() || *end != '\0')
+        throw std::runtime_error(file.string() + ", line " + std::to_string(number) + ": '" + word +
+                                 "' is not a number");
+    }
+    if (values.size() < table.names.size() && lines.peek() == EOF)
+      break;
+    if (values.size() != table.names.size())
+      throw std::runtime_error(file.string() + ", line " + std::to_string(number) + ": " +
+                               std::to_string(values.size()) + " values under " + std::to_string(table.names.size()) +
+                               " names");
+    for (std::size_t i = 0; i < values.size(); ++i)
+      table.columns[table.names[i]].push_back(values[i]);
+  }
+  return table;
+}
+
+Case read_case(const fs::path& folder) {
+  if (!fs::is_directory(folder))
+    throw std::runtime_error(folder.string() + ": no such case folder");
+  Case result;
+  result.folder = folder;
+  result.name = fs::canonical(folder).filename().string();
+  const fs::path dictionary = folder / "system" / "annulusMeshDict";
+  const std::string text =
+      without_comments(text_of(dictionary, "a case of annulusFoam has it; give the case folder itself"));
+  const auto number = [&](const char* keyword) { return entry(text, dictionary, keyword, 0, true); };
+  result.section.hole_radius = number("holeRadius");
+  result.section.pipe_radius = number("pipeRadius");
+  result.section.length = number("length");
+  result.section.pipe_centre = {0, -number("eccentricity") * (result.section.hole_radius - result.section.pipe_radius)};
+  result.inclination = entry(text, dictionary, "inclination", 0, false);
+  result.run = read_csv(folder / "postProcessing" / "eccentra" / "coupling.csv");
+  // LIGGGHTS writes a second file with the bounding box beside each: those do not count.
+  result.bodies = find_files(folder, std::regex(R"((?:particles|bodies)[^0-9]*?(\d+)\.vt[kp])"));
+  result.spheres = find_files(folder, std::regex(R"((?:spheres|clusters)[^0-9]*?(\d+)\.vt[kp])"));
+  if (result.spheres.empty())
+    result.spheres = result.bodies;
+  if (result.bodies.empty())
+    result.bodies = result.spheres;
+  return result;
+}
+
+vtkSmartPointer<vtkPolyData> read_points(const fs::path& file) {
+  vtkSmartPointer<vtkPolyData> points;
+  if (file.extension() == ".vtp") {
+    const auto reader = vtkSmartPointer<vtkXMLPolyDataReader>::New();
+    reader->SetFileName(file.c_str());
+    reader->Update();
+    points = reader->GetOutput();
+  } else {
+    const auto reader = vtkSmartPointer<vtkPolyDataReader>::New();
+    reader->SetFileName(file.c_str());
+    reader->ReadAllScalarsOn();
+    reader->ReadAllVectorsOn();
+    reader->ReadAllFieldsOn();
+    reader->Update();
+    points = reader->GetOutput();
+  }
+  if (points == nullptr)
+    throw std::runtime_error(file.string() + ": not a file of points that VTK can read");
+  return points;
+}
+
+Snapshot read_snapshot(const ParticleFile& file) {
+  const auto points = read_points(file.path);
+  vtkPointData& data = *points->GetPointData();
+  vtkDataArray* velocity = data.GetArray("v");
+  vtkDataArray* radius = data.GetArray("radius");
+  vtkDataArray* volume = data.GetArray("volume");
+  if (points->GetNumberOfPoints() > 0 && (velocity == nullptr || (radius == nullptr && volume == nullptr)))
+    throw std::runtime_error(file.path.string() + ": the points lack 'v' or 'radius': dump vx vy vz and radius");
+  Snapshot snapshot;
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i) {
+    Vector position{};
+    Vector speed{};
+    points->GetPoint(i, position.data());
+    velocity->GetTuple(i, speed.data());
+    constexpr double sphere = 4.18879020478639098; // 4 pi / 3
+    snapshot.position.push_back(position);
+    snapshot.velocity.push_back(speed);
+    snapshot.volume.push_back(volume != nullptr ? volume->GetTuple1(i) : sphere * std::pow(radius->GetTuple1(i), 3));
+  }
+  return snapshot;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> read_flow(const fs::path& folder) {
+  const auto reader = vtkSmartPointer<vtkPOpenFOAMReader>::New();
+  const std::string control = (folder / "system" / "controlDict").string();
+  reader->SetFileName(control.c_str());
+  const bool parts = fs::is_directory(folder / "processor0");
+  reader->SetCaseType(parts ? vtkPOpenFOAMReader::DECOMPOSED_CASE : vtkPOpenFOAMReader::RECONSTRUCTED_CASE);
+  reader->SkipZeroTimeOff();
+  reader->UpdateInformation();
+  vtkInformation& information = *reader->GetOutputInformation(0);
+  if (!information.Has(vtkStreamingDemandDrivenPipeline::TIME_STEPS()))
+    return nullptr;
+  const int count = information.Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+  const double* times = information.Get(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+  if (count == 0)
+    return nullptr;
+  reader->DisableAllPatchArrays();
+  reader->SetPatchArrayStatus("internalMesh", 1);
+  reader->DisableAllCellArrays();
+  reader->SetCellArrayStatus("U", 1);
+  reader->CreateCellToPointOn();
+  reader->UpdateTimeStep(times[count - 1]);
+  const auto together = vtkSmartPointer<vtkAppendFilter>::New();
+  auto* blocks = vtkMultiBlockDataSet::SafeDownCast(reader->GetOutputDataObject(0));
+  if (blocks == nullptr)
+    return nullptr;
+  const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    if (auto* grid = vtkUnstructuredGrid::SafeDownCast(iterator->GetCurrentDataObject()))
+      together->AddInputData(grid);
+  if (together->GetNumberOfInputConnections(0) == 0)
+    return nullptr;
+  together->Update();
+  vtkSmartPointer<vtkUnstructuredGrid> grid = together->GetOutput();
+  return grid->GetPointData()->HasArray("U") ? grid : nullptr;
+}
+
+} // namespace eccentra::report

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a case folder holds: geometry and gravity, the table of the coupled run, particles at the times written.
+#pragma once
+
+#include "report/section_measures.h"
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace eccentra::report {
+
+/// Columns of numbers by name, all of the same length.
+struct Table {
+  std::vector<std::string> names;
+  std::map<std::string, std::vector<double>> columns;
+  std::size_t rows() const { return names.empty() ? 0 : columns.at(names.front()).size(); }
+  bool has(const std::string& name) const { return columns.count(name) != 0; }
+};
+
+/// Reads comma-separated values under one line of names. A last line that is cut short (the run still writes it) is
+/// left out. Throws std::runtime_error with one sentence that names file, line and value where a value is not a number.
+Table read_csv(const std::filesystem::path& file);
+
+/// A file of particles: bodies, or the sub-spheres of bodies, as points.
+struct ParticleFile {
+  std::filesystem::path path;
+  long step = 0; ///< the last number in the file's name
+};
+
+struct Case {
+  std::filesystem::path folder;
+  std::string name;
+  Section section;
+  double inclination = 0;            ///< degrees from the vertical
+  Table run;                         ///< postProcessing/eccentra/coupling.csv
+  std::vector<ParticleFile> bodies;  ///< one point per body: radius, v, and volume where it is not a sphere
+  std::vector<ParticleFile> spheres; ///< what to draw: sub-spheres where bodies are clusters, else `bodies`
+};
+
+/// Throws std::runtime_error with one sentence that names the file, the keyword and the remedy.
+Case read_case(const std::filesystem::path& folder);
+
+/// One body file as numbers.
+Snapshot read_snapshot(const ParticleFile& file);
+
+/// Points of a .vtk or .vtp file; of several blocks, all points together.
+vtkSmartPointer<vtkPolyData> read_points(const std::filesystem::path& file);
+
+/// The mesh with the last U written (point data), or null if the run wrote no time; whole or in parts of processors.
+vtkSmartPointer<vtkUnstructuredGrid> read_flow(const std::filesystem::path& folder);
+
+} // namespace eccentra::report

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Implements html_page.h.
+#include "report/html_page.h"
+
+#include <vtkBase64Utilities.h>
+
+#include <fstream>
+
+namespace eccentra::report {
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text)
+    switch (c) {
+    case '&':
+      result += "&amp;";
+      break;
+    case '<':
+      result += "&lt;";
+      break;
+    case '>':
+      result += "&gt;";
+      break;
+    default:
+      result += c;
+    }
+  return result;
+}
+
+std::string picture(const std::filesystem::path& file, const std::string& caption) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    return "";
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  std::string text(2 * bytes.size() + 8, '\0');
+  const auto length = vtkBase64Utilities::Encode(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
+                                                 reinterpret_cast<unsigned char*>(text.data()), 0);
+  text.resize(length);
+  return "<figure><img alt=\"" + caption + "\" src=\"data:image/png;base64," + text + "\"><figcaption>" + caption +
+         "</figcaption></figure>\n";
+}
+
+} // namespace
+
+std::string html_page(const std::vector<Summary>& summaries, const std::filesystem::path& folder) {
+  std::string title;
+  for (const Summary& s : summaries)
+    title += (title.empty() ? "" : ", ") + escaped(s.name);
+  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + title +
+         "</title>\n<style>body{font:16px sans-serif;max-width:1100px;margin:2em auto;padding:0 1em}"
+         "pre{overflow-x:auto;background:#f6f6f6;padding:1em}img{max-width:100%}figure{margin:1em "
+         "0}</style></head>\n<body><h1>" +
+         title + "</h1>\n<pre>" + escaped(to_text(summaries)) + "</pre>\n" +
+         picture(folder / "beds.png", "Bodies coloured by speed in front of the speed of the fluid") +
+         picture(folder / "charts.png", "Profile, flux, pressure gradient and cost") + "</body></html>\n";
+}
+
+} // namespace eccentra::report

@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Implements summary.h.
+#include "report/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace eccentra::report {
+namespace {
+
+/// What of coupling.csv is a result of the flow, in the order of the table.
+struct Column {
+  const char* column;
+  const char* name;
+  const char* unit;
+  double scale;
+};
+const Column columns[] = {{"particles", "bodies", "", 1},
+                          {"mean_velocity", "mean fluid velocity", "m/s", 1},
+                          {"pressure_gradient", "pressure gradient", "Pa/m", 1},
+                          {"solid_concentration", "solid concentration", "%", 100},
+                          {"solids_flux", "solid flux", "1e-6 m3/s", 1e6},
+                          {"com_height", "height of the solid's centre", "mm", 1000},
+                          {"bed_height", "bed height (cells above 30 %)", "mm", 1000},
+                          {"fastest_particle", "fastest body", "m/s", 1},
+                          {"least_fraction", "least fluid fraction", "", 1}};
+const Column errors[] = {{"volume_error", "solid volume error, largest", "", 1},
+                         {"impulse_error", "impulse error, largest", "", 1},
+                         {"pressure_error", "pressure force error, largest", "", 1},
+                         {"continuity_error", "continuity error, largest", "", 1}};
+const char* const parts[] = {"dem", "fluid", "exchange", "link"};
+
+std::string number(double value) {
+  if (value == 0)
+    return "0";
+  const double size = std::abs(value);
+  if (size >= 1e5 || size < 1e-3)
+    return fmt::format("{:.2e}", value);
+  return fmt::format("{:.4g}", value);
+}
+
+std::string cell(const Quantity& q) {
+  const std::string value = number(q.mean.value * q.scale);
+  return q.mean.error > 0 ? value + " +-" + fmt::format("{:.2g}", q.mean.error * q.scale) : value;
+}
+
+} // namespace
+
+Mean mean_of(const std::vector<double>& values, std::size_t parts_wanted) {
+  if (values.empty())
+    throw std::invalid_argument("a mean needs at least one value");
+  const std::size_t batches = std::min(parts_wanted, values.size());
+  std::vector<double> batch(batches, 0.0);
+  double sum = 0;
+  for (std::size_t b = 0; b < batches; ++b) {
+    const std::size_t first = b * values.size() / batches;
+    const std::size_t last = (b + 1) * values.size() / batches;
+    for (std::size_t i = first; i < last; ++i) {
+      batch[b] += values[i] / static_cast<double>(last - first);
+      sum += values[i];
+    }
+  }
+  Mean mean;
+  mean.value = sum / static_cast<double>(values.size());
+  if (batches < 2)
+    return mean;
+  double spread = 0;
+  for (const double b : batch)
+    spread += (b - mean.value) * (b - mean.value);
+  mean.error = std::sqrt(spread / static_cast<double>(batches * (batches - 1)));
+  return mean;
+}
+
+std::array<double, 2> high_side() {
+  return {0, 1}; // annulusMesh puts gravity into the y-z plane, and the pipe towards -y
+}
+
+Summary summarise(const Case& data, double share, std::size_t layers) {
+  if (!(share > 0 && share <= 1))
+    throw std::invalid_argument("the share of the run to take means over is " + std::to_string(share) +
+                                ": give more than 0 and at most 1");
+  if (data.run.rows() == 0)
+    throw std::runtime_error((data.folder / "postProcessing/eccentra/coupling.csv").string() +
+                             ": no row yet: has the run reached its first report?");
+  Summary summary;
+  summary.name = data.name;
+  const auto& time = data.run.columns.at("time");
+  summary.until = time.back();
+  summary.from = time.back() - share * (time.back() - time.front());
+  const auto late = [&](const std::vector<double>& all) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (time[i] >= summary.from)
+        values.push_back(all[i]);
+    return values;
+  };
+  for (const Column& c : columns)
+    if (data.run.has(c.column))
+      summary.quantities.push_back({c.name, c.unit, mean_of(late(data.run.columns.at(c.column))), c.scale});
+
+  // From the particles themselves, over the snapshots of the same part of the run.
+  std::vector<double> height;
+  std::vector<double> rest;
+  summary.profile.assign(layers, 0.0);
+  std::size_t snapshots = 0;
+  const long last_step = data.bodies.empty() ? 0 : data.bodies.back().step;
+  for (const ParticleFile& file : data.bodies) {
+    if (static_cast<double>(file.step) < (1 - share) * static_cast<double>(last_step))
+      continue;
+    const Snapshot snapshot = read_snapshot(file);
+    const auto profile = concentration_profile(data.section, snapshot, high_side(), layers);
+    for (std::size_t k = 0; k < layers; ++k)
+      summary.profile[k] += profile[k];
+    height.push_back(bed_height(profile, 2 * data.section.hole_radius));
+    constexpr double slow = 0.01; // m/s
+    rest.push_back(share_at_rest(snapshot, slow));
+    ++snapshots;
+  }
+  for (double& c : summary.profile)
+    c /= std::max<double>(1, static_cast<double>(snapshots));
+  if (snapshots > 0) {
+    summary.quantities.push_back({"bed height (profile)", "mm", mean_of(height), 1000});
+    summary.quantities.push_back({"solid slower than 10 mm/s", "%", mean_of(rest), 100});
+  }
+  for (const Column& c : errors)
+    if (data.run.has(c.column)) {
+      const auto& all = data.run.columns.at(c.column);
+      summary.quantities.push_back({c.name, c.unit, {*std::max_element(all.begin(), all.end()), 0}, c.scale});
+    }
+  for (const char* part : parts) {
+    const std::string column = std::string(part) + "_seconds";
+    if (data.run.has(column))
+      summary.seconds.emplace_back(part == std::string("dem") ? "DEM" : part, data.run.columns.at(column).back());
+  }
+  return summary;
+}
+
+std::string to_text(const std::vector<Summary>& summaries) {
+  constexpr std::size_t first = 42;
+  std::size_t wide = 16;
+  for (const Summary& s : summaries)
+    wide = std::max(wide, s.name.size() + 2);
+  std::string text = fmt::format("{:<{}}", "mean +- standard error", first);
+  for (const Summary& s : summaries)
+    text += fmt::format("{:>{}}", s.name, wide);
+  text += fmt::format("\n{:<{}}", "  over the time [s]", first);
+  for (const Summary& s : summaries)
+    text += fmt::format("{:>{}}", fmt::format("{:.2f}..{:.2f}", s.from, s.until), wide);
+  text += "\n";
+  std::vector<std::pair<std::string, std::string>> lines; // name and unit, in the order of the first case that has it
+  for (const Summary& s : summaries)
+    for (const Quantity& q : s.quantities)
+      if (std::find(lines.begin(), lines.end(), std::make_pair(q.name, q.unit)) == lines.end())
+        lines.emplace_back(q.name, q.unit);
+  for (const auto& [name, unit] : lines) {
+    text += fmt::format("{:<{}}", unit.empty() ? name : name + " [" + unit + "]", first);
+    for (const Summary& s : summaries) {
+      const auto q =
+          std::find_if(s.quantities.begin(), s.quantities.end(), [&](const Quantity& x) { return x.name == name; });
+      text += fmt::format("{:>{}}", q == s.quantities.end() ? "-" : cell(*q), wide);
+    }
+    text += "\n";
+  }
+  for (std::size_t part = 0; !summaries.empty() && part < summaries[0].seconds.size(); ++part) {
+    text += fmt::format("{:<{}}", "seconds in " + summaries[0].seconds[part].first, first);
+    for (const Summary& s : summaries)
+      text +=
+          fmt::format("{:>{}}", part < s.seconds.size() ? fmt::format("{:.1f}", s.seconds[part].second) : "-", wide);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string to_csv(const std::vector<Summary>& summaries) {
+  std::string text = "case,quantity,unit,mean,standard_error,from_s,until_s\n";
+  for (const Summary& s : summaries) {
+    for (const Quantity& q : s.quantities)
+      text += fmt::format("{},{},{},{:.8g},{:.3g},{:.6g},{:.6g}\n", s.name, q.name, q.unit, q.mean.value * q.scale,
+                          q.mean.error * q.scale, s.from, s.until);
+    for (const auto& [part, seconds] : s.seconds)
+      text += fmt::format("{},seconds in {},s,{:.4g},0,0,{:.6g}\n", s.name, part, seconds, s.until);
+  }
+  return text;
+}
+
+std::string profile_csv(const std::vector<Summary>& summaries) {
+  std::string text = "height_over_hole_diameter";
+  for (const Summary& s : summaries)
+    text += "," + s.name;
+  text += "\n";
+  for (std::size_t k = 0; !summaries.empty() && k < summaries[0].profile.size(); ++k) {
+    text += fmt::format("{:.5g}", (static_cast<double>(k) + 0.5) / static_cast<double>(summaries[0].profile.size()));
+    for (const Summary& s : summaries)
+      text += fmt::format(",{:.6g}", s.profile[k]);
+    text += "\n";
+  }
+  return text;
+}
+
+} // namespace eccentra::report
