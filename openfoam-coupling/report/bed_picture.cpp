@@ -201,7 +201,8 @@ void add_line(vtkRenderer& renderer, const Vector& a, const Vector& b) {
   renderer.AddActor(actor);
 }
 
-/// Camera that looks along -x or along the hole from far away, `half_height` of the world above and below the centre.
+/// Camera that looks along x (the flow goes to the right) or against the hole's axis from far away, `half_height` of
+/// the world above and below the centre.
 void look(vtkRenderer& renderer, const Vector& centre, const Vector& from, const Vector& up, double half_height) {
   vtkCamera& camera = *renderer.GetActiveCamera();
   camera.ParallelProjectionOn();
@@ -229,12 +230,12 @@ void side_view(vtkRenderer& renderer, const Scene& scene, const Colours& colours
   if (scene.flow != nullptr)
     renderer.AddActor(flow_slice(scene, colours, {0, 0, 0}, {1, 0, 0}));
   renderer.AddActor(pipe_actor(section));
-  renderer.AddActor(sphere_actor(scene, colours, [](const Vector& p) { return p[0] > 0; }));
+  renderer.AddActor(sphere_actor(scene, colours, [](const Vector& p) { return p[0] < 0; }));
   for (const double y : {-section.hole_radius, section.hole_radius})
     add_line(renderer, {0, y, 0}, {0, y, section.length});
   // Gravity is (0, -sin, -cos) of the inclination: its opposite is up in the picture.
   const double angle = scene.data->inclination * pi / 180;
-  look(renderer, {0, 0, section.length / 2}, {10 * section.length, 0, 0}, {0, std::sin(angle), std::cos(angle)},
+  look(renderer, {0, 0, section.length / 2}, {-10 * section.length, 0, 0}, {0, std::sin(angle), std::cos(angle)},
        half_height);
 }
 
@@ -273,6 +274,7 @@ void add_bar(vtkRenderer& renderer, vtkColorTransferFunction* colours, const cha
   bar->SetWidth(0.36);
   bar->SetHeight(0.8);
   bar->SetUnconstrainedFontSize(true);
+  bar->SetVerticalTitleSeparation(12);
   for (vtkTextProperty* text : {bar->GetTitleTextProperty(), bar->GetLabelTextProperty()}) {
     text->SetColor(0, 0, 0);
     text->SetFontSize(text_size);

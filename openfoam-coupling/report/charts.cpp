@@ -48,14 +48,14 @@ vtkSmartPointer<vtkDoubleArray> column(const std::string& name, const std::vecto
 }
 
 vtkSmartPointer<vtkChartXY> chart(vtkContextView& view, const std::string& title, const std::string& x,
-                                  const std::string& y, const std::array<float, 4>& rectangle) {
+                                  const std::string& y, const std::array<float, 4>& rectangle, bool legend) {
   const auto result = vtkSmartPointer<vtkChartXY>::New();
   view.GetScene()->AddItem(result);
   result->SetAutoSize(false);
   result->SetSize(vtkRectf(rectangle[0], rectangle[1], rectangle[2], rectangle[3]));
   result->SetTitle(title);
   result->GetTitleProperties()->SetFontSize(title_size);
-  result->SetShowLegend(true);
+  result->SetShowLegend(legend); // the colours of the cases are the same in all charts
   result->GetLegend()->SetLabelSize(label_size - 2);
   for (const auto& [axis, text] : {std::pair{vtkAxis::BOTTOM, x}, std::pair{vtkAxis::LEFT, y}}) {
     vtkAxis& a = *result->GetAxis(axis);
@@ -106,7 +106,7 @@ void draw_charts(const std::vector<Case>& cases, const std::vector<Summary>& sum
   const auto view = vtkSmartPointer<vtkContextView>::New();
   view->GetRenderWindow()->SetOffScreenRendering(1);
   view->GetRenderWindow()->SetSize(static_cast<int>(width), static_cast<int>(height));
-  view->GetRenderWindow()->SetMultiSamples(8);
+  view->GetRenderWindow()->SetMultiSamples(0); // the chart smooths its lines itself; more blurs its text
   view->GetRenderer()->SetBackground(1, 1, 1);
   const auto quarter = [&](float column_index, float row) {
     return std::array<float, 4>{gap + column_index * width / 2, gap + row * height / 2, width / 2 - 2 * gap,
@@ -114,21 +114,21 @@ void draw_charts(const std::vector<Case>& cases, const std::vector<Summary>& sum
   };
 
   const auto profile = chart(*view, "Solid over the height of the hole", "solid volume fraction",
-                             "height / hole diameter", quarter(0, 1));
+                             "height / hole diameter", quarter(0, 1), true);
   for (std::size_t i = 0; i < summaries.size(); ++i) {
     std::vector<double> heights;
     for (std::size_t k = 0; k < summaries[i].profile.size(); ++k)
       heights.push_back((static_cast<double>(k) + 0.5) / static_cast<double>(summaries[i].profile.size()));
     line(*profile, summaries[i].name, column("fraction", summaries[i].profile), column("height", heights), i);
   }
-  const auto flux = chart(*view, "Solid flux along the hole", "time [s]", "flux [1e-6 m3/s]", quarter(1, 1));
+  const auto flux = chart(*view, "Solid flux along the hole", "time [s]", "flux [1e-6 m3/s]", quarter(1, 1), false);
   over_time(*flux, cases, "solids_flux", 1e6, 1);
   constexpr std::size_t start = 2;
-  const auto gradient =
-      chart(*view, "Pressure gradient that drives the flow", "time [s]", "pressure gradient [Pa/m]", quarter(0, 0));
+  const auto gradient = chart(*view, "Pressure gradient that drives the flow", "time [s]", "pressure gradient [Pa/m]",
+                              quarter(0, 0), false);
   over_time(*gradient, cases, "pressure_gradient", 1, start);
 
-  const auto cost = chart(*view, "Where the wall-clock time goes", "", "seconds", quarter(1, 0));
+  const auto cost = chart(*view, "Where the wall-clock time goes", "", "seconds", quarter(1, 0), true);
   const auto table = vtkSmartPointer<vtkTable>::New();
   std::vector<double> places;
   const auto names = vtkSmartPointer<vtkStringArray>::New();

@@ -28,10 +28,10 @@ const Column columns[] = {{"particles", "bodies", "", 1},
                           {"bed_height", "bed height (cells above 30 %)", "mm", 1000},
                           {"fastest_particle", "fastest body", "m/s", 1},
                           {"least_fraction", "least fluid fraction", "", 1}};
-const Column errors[] = {{"volume_error", "solid volume error, largest", "", 1},
-                         {"impulse_error", "impulse error, largest", "", 1},
-                         {"pressure_error", "pressure force error, largest", "", 1},
-                         {"continuity_error", "continuity error, largest", "", 1}};
+const Column errors[] = {{"volume_error", "largest solid volume error", "", 1},
+                         {"impulse_error", "largest impulse error", "", 1},
+                         {"pressure_error", "largest pressure force error", "", 1},
+                         {"continuity_error", "largest continuity error", "", 1}};
 const char* const parts[] = {"dem", "fluid", "exchange", "link"};
 
 std::string number(double value) {

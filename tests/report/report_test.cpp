@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// annulusReport as a program, on a case folder whose numbers are known.
+#include "report/summary.h"
+#include "support/run_program.h"
+
+#include <gtest/gtest.h>
+#include <vtkImageData.h>
+#include <vtkPNGReader.h>
+#include <vtkPointData.h>
+#include <vtkSmartPointer.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace {
+
+using namespace eccentra::test;
+namespace fs = std::filesystem;
+
+/// Ten spheres of 10 mm at the low side, at rest; a table of four rows.
+fs::path make_case(const std::string& name) {
+  const fs::path folder = fresh_folder(name);
+  write_file(folder / "system/annulusMeshDict",
+             "// comment; holeRadius 7;\nholeRadius 0.0635;\npipeRadius 0.02413; /* eccentricity 9; */\n"
+             "eccentricity 0.5;\nlength 0.3;\ninclination 80;\n");
+  write_file(folder / "system/controlDict",
+             "FoamFile { version 2.0; format ascii; class dictionary; object controlDict; }\n");
+  write_file(
+      folder / "postProcessing/eccentra/coupling.csv",
+      "time,particles,solids_flux,pressure_gradient,volume_error,dem_seconds,fluid_seconds\n"
+      "0,10,9,900,1e-15,0.5,0.1\n1,10,1e-6,300,3e-15,1,0.2\n2,10,2e-6,310,1e-15,1.5,0.3\n3,10,3e-6,320,1e-15,2,0.4\n");
+  std::ostringstream points;
+  points << "# vtk DataFile Version 2.0\nparticles\nASCII\nDATASET POLYDATA\nPOINTS 10 float\n";
+  for (int i = 0; i < 10; ++i)
+    points << "0.01 -0.05 " << 0.03 * i + 0.01 << "\n";
+  points << "VERTICES 10 20\n";
+  for (int i = 0; i < 10; ++i)
+    points << "1 " << i << "\n";
+  points << "POINT_DATA 10\nSCALARS radius float 1\nLOOKUP_TABLE default\n";
+  for (int i = 0; i < 10; ++i)
+    points << "0.005\n";
+  points << "VECTORS v float\n";
+  for (int i = 0; i < 10; ++i)
+    points << "0 0 " << 0.1 * i << "\n";
+  write_file(folder / "postProcessing/eccentra/particles_100.vtk", points.str());
+  return folder;
+}
+
+ProgramResult report(const std::vector<std::string>& words) {
+  std::vector<std::string> all = {required_environment("ECCENTRA_BIN") + "/annulusReport"};
+  all.insert(all.end(), words.begin(), words.end());
+  return run_program(all, {".", {}, 60});
+}
+
+/// Number of different colours, up to 100: a blank picture has one.
+int colours(const fs::path& file) {
+  const auto reader = vtkSmartPointer<vtkPNGReader>::New();
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  std::set<std::array<double, 3>> found;
+  vtkImageData& image = *reader->GetOutput();
+  vtkDataArray& pixels = *image.GetPointData()->GetScalars();
+  for (vtkIdType i = 0; i < pixels.GetNumberOfTuples() && found.size() < 100; ++i)
+    found.insert({pixels.GetComponent(i, 0), pixels.GetComponent(i, 1), pixels.GetComponent(i, 2)});
+  return static_cast<int>(found.size());
+}
+
+TEST(Means, AndTheirErrors) {
+  using eccentra::report::mean_of;
+  const auto constant = mean_of(std::vector<double>(50, 3.0));
+  EXPECT_EQ(constant.value, 3);
+  EXPECT_NEAR(constant.error, 0, 1e-15);
+  // Five batches of means 1..5: standard error sqrt(2.5 / 5).
+  const auto ramp = mean_of({1, 1, 2, 2, 3, 3, 4, 4, 5, 5});
+  EXPECT_DOUBLE_EQ(ramp.value, 3);
+  EXPECT_DOUBLE_EQ(ramp.error, std::sqrt(0.5));
+  EXPECT_THROW(mean_of({}), std::invalid_argument);
+}
+
+TEST(Report, SaysWhatTheCaseHolds) {
+  const fs::path folder = make_case("known");
+  const ProgramResult run = report({folder, "--html"});
+  ASSERT_EQ(run.status, 0) << run.output;
+  std::ifstream stream(folder / "report/summary.csv");
+  std::map<std::string, std::string> values;
+  for (std::string line; std::getline(stream, line);) {
+    std::istringstream words(line);
+    std::string name, quantity, unit, value;
+    std::getline(words, name, ','), std::getline(words, quantity, ','), std::getline(words, unit, ','),
+        std::getline(words, value, ',');
+    values[quantity] = value;
+  }
+  // The last half of the run: rows at 2 and 3 s.
+  EXPECT_EQ(values["pressure gradient"], "315");
+  EXPECT_EQ(values["solid flux"], "2.5");
+  EXPECT_EQ(values["largest solid volume error"], "3e-15");
+  EXPECT_EQ(values["solid slower than 10 mm/s"], "10");
+  EXPECT_EQ(values["seconds in DEM"], "2");
+  EXPECT_GT(colours(folder / "report/beds.png"), 20);
+  EXPECT_GT(colours(folder / "report/charts.png"), 20);
+  std::ifstream page(folder / "report/report.html");
+  const std::string html{std::istreambuf_iterator<char>(page), {}};
+  EXPECT_NE(html.find("data:image/png;base64,"), std::string::npos);
+  EXPECT_EQ(html.find("http"), std::string::npos) << "the page must need no network";
+}
+
+TEST(Report, LeavesNoServerBehind) {
+  const fs::path folder = make_case("server");
+  const ProgramResult run = report({folder});
+  ASSERT_EQ(run.status, 0) << "signal " << run.signal << "\n" << run.output;
+  for (const auto& process : fs::directory_iterator("/proc")) {
+    std::ifstream stat(process.path() / "stat");
+    std::string word, name, state, parent;
+    stat >> word >> name >> state >> parent;
+    EXPECT_FALSE(name == "(Xvfb)" && parent == "1" && state != "Z") << "process " << word;
+  }
+}
+
+} // namespace
