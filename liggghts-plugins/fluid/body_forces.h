@@ -4,7 +4,6 @@
 #pragma once
 
 #include "fluid/effect.h"
-#include "fluid/particle_geometry.h"
 
 #include <algorithm>
 

@@ -3,9 +3,9 @@
 // Drag on every particle, implicit in its own slip: eq (20)-(23) with any drag law and any rheology.
 #pragma once
 
+#include "fluid/drag_laws.h"
 #include "fluid/effect.h"
 #include "fluid/implicit_step.h"
-#include "fluid/particle_geometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,11 +24,11 @@ template <class Stress, class Law> class DragEffect : public Effect {
   const char* name() const override { return name_; }
   const char* slot() const override { return "drag"; }
   unsigned needs() const override { return kVelocity | kFraction; }
-  void prepare(const ParticleGeometry& geometry) override {
-    geometry_ = &geometry;
+  void prepare(const ShapeCatalogue& shapes) override {
+    shapes_ = &shapes;
     laws_.clear();
-    for (int kind = 0; kind < geometry.kinds(); ++kind)
-      laws_.emplace_back(geometry.factors(kind));
+    for (int kind = 0; kind < shapes.kinds(); ++kind)
+      laws_.emplace_back(shapes.factors(kind));
   }
 
   void apply(const Kick& kick) override {
@@ -52,9 +52,9 @@ template <class Stress, class Law> class DragEffect : public Effect {
       DragPlace place;
       place.fraction = std::clamp(kick.samples.fraction[i], kDragFractionFloor, 1.0);
       if constexpr (Law::kOriented)
-        place.crosswise = geometry_->crosswise_sphericity(i, free);
+        place.crosswise = shapes_->crosswise_sphericity(i, free);
       const auto law = laws_[kick.kind[i]].in(place);
-      const Resistance<Stress, std::decay_t<decltype(law)>> drag{stress_, law, kPi / 8.0 * d * d, d, density_};
+      const Resistance<Stress, std::decay_t<decltype(law)>> drag{stress_, law, kPi / 8.0 * d * d, 1.0 / d, density_};
       const ImplicitSlip step = implicit_slip(drag, free_speed, compliance, std::sqrt(slip2));
       // What is exchanged is the force that was really given, so the fluid receives exactly what the particle lost. Its
       // linearisation is the answer of the stepped particle to the fluid's velocity: at most m/interval, also at rest.
@@ -77,7 +77,7 @@ template <class Stress, class Law> class DragEffect : public Effect {
   Stress stress_;
   double density_;
   std::vector<Law> laws_;
-  const ParticleGeometry* geometry_ = nullptr;
+  const ShapeCatalogue* shapes_ = nullptr;
 };
 
 } // namespace eccentra::fluid

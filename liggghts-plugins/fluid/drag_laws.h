@@ -36,9 +36,12 @@ template <class Single, bool VoidReynolds = false> struct Suspended {
   explicit Suspended(const ShapeFactors& shape) : law(shape) {}
 
   struct Placed {
+    static constexpr bool kAffine = Single::kAffine;
     Single law;
     double scale;
     double re_scale;
+    double viscous() const { return scale * law.viscous(); }
+    double plateau() const { return (VoidReynolds ? scale * re_scale : scale) * law.plateau(); }
     ValueAndSlope operator()(double re) const {
       const ValueAndSlope g = law(VoidReynolds ? re_scale * re : re);
       return {scale * g.value, (VoidReynolds ? scale * re_scale : scale) * g.slope};
@@ -56,17 +59,21 @@ struct Chien {
   static constexpr bool kOriented = false;
   static constexpr double kLowestRe = 1e-3, kHighestRe = 1e4;
   static constexpr double kViscous = 30.0, kPlateau = 67.289, kPlateauDecay = 5.03;
-  double plateau;
+  static constexpr bool kAffine = true;
+  double newton;
 
-  explicit Chien(const ShapeFactors& shape) : plateau(kPlateau * std::exp(-kPlateauDecay * shape.sphericity)) {}
+  explicit Chien(const ShapeFactors& shape) : newton(kPlateau * std::exp(-kPlateauDecay * shape.sphericity)) {}
   Chien in(const DragPlace&) const { return *this; }
-  ValueAndSlope operator()(double re) const { return {kViscous + plateau * re, plateau}; }
+  double viscous() const { return kViscous; }
+  double plateau() const { return newton; }
+  ValueAndSlope operator()(double re) const { return {kViscous + newton * re, newton}; }
 };
 
 /// Schiller & Naumann (1933): C_D = 24/Re (1 + 0.15 Re^0.687) up to Re = 1000, then 0.44 (a jump of 0.4 %). Spheres.
 /// Below: Stokes. Above 2e5 the drag crisis is not in it.
 struct SchillerNaumann {
   static constexpr bool kOriented = false;
+  static constexpr bool kAffine = false;
   static constexpr double kLowestRe = 0.0, kHighestRe = 2e5;
   static constexpr double kStokes = 24.0, kFactor = 0.15, kExponent = 0.687, kNewtonRe = 1000.0, kNewton = 0.44;
 
@@ -86,6 +93,7 @@ struct SchillerNaumann {
 /// averaged; range 0.026 <= phi <= 1, Re < 2.5e4 (spheres 2.6e5). Below: Stokes for every shape. Above: the plateau C.
 struct HaiderLevenspiel {
   static constexpr bool kOriented = false;
+  static constexpr bool kAffine = false;
   static constexpr double kLowestRe = 0.0, kHighestRe = 2.5e4;
   static constexpr double kStokes = 24.0;
   double a, b, c, d;
@@ -111,6 +119,7 @@ struct HaiderLevenspiel {
 /// K1 = 1/(1/3 + 2/3 phi^-0.5), K2 = 10^(1.8148 (-log10 phi)^0.5743); range R < 1e5. Below: Stokes times 1/K1.
 struct Ganser {
   static constexpr bool kOriented = false;
+  static constexpr bool kAffine = false;
   static constexpr double kLowestRe = 0.0, kHighestRe = 1e5;
   static constexpr double kStokes = 24.0, kFactor = 0.1118, kExponent = 0.6567, kForm = 0.4305, kTransition = 3305.0;
   double k1, k2;
@@ -137,6 +146,7 @@ struct Ganser {
 /// Re < 1e5. Below: Stokes' part by shape; a sphere is 24/Re. phi_perp is taken from the shape as it lies in the flow.
 struct HoelzerSommerfeld {
   static constexpr bool kOriented = true;
+  static constexpr bool kAffine = false;
   static constexpr double kLowestRe = 0.0, kHighestRe = 1e5;
   static constexpr double kForm = 8.0, kFriction = 16.0, kMiddle = 3.0, kNewton = 0.42;
   double friction, middle, newton;
@@ -176,6 +186,7 @@ struct Gidaspow {
 
   explicit Gidaspow(const ShapeFactors& shape) : dilute(shape), sphericity(shape.sphericity) {}
   struct Placed {
+    static constexpr bool kAffine = false;
     bool dense;
     Suspended<SchillerNaumann, true>::Placed dilute;
     double viscous, inertial;
@@ -202,6 +213,7 @@ struct DiFelice {
 
   explicit DiFelice(const ShapeFactors&) {}
   struct Placed {
+    static constexpr bool kAffine = false;
     double fraction;
     double log_fraction;
     ValueAndSlope operator()(double re) const {

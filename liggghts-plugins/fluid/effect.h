@@ -12,7 +12,19 @@
 
 namespace eccentra::fluid {
 
-class ParticleGeometry;
+struct ShapeFactors;
+
+/// The shapes of a scene as effects see them. A "kind" numbers all particles that share a shape.
+class ShapeCatalogue {
+ public:
+  virtual ~ShapeCatalogue() = default;
+  virtual int kinds() const = 0;
+  virtual ShapeFactors factors(int kind) const = 0;
+  /// Smallest principal moment of inertia over m R_eq^2; 0.4 for a sphere.
+  virtual double inertia_factor(int kind) const = 0;
+  /// phi_perp of local atom i for a flow along `direction` (any length, world frame); 1 for a plain sphere.
+  virtual double crosswise_sphericity(int i, const double* direction) const = 0;
+};
 
 /// The particles of one rank at one kick of the integrator, as plain arrays; rows are local atoms.
 struct Kick {
@@ -24,7 +36,7 @@ struct Kick {
   double** torque = nullptr;
   const double* mass = nullptr;
   const double* radius = nullptr; ///< of the sphere of equal volume [m]
-  const int* kind = nullptr;      ///< see ParticleGeometry
+  const int* kind = nullptr;      ///< see ShapeCatalogue
   const int* mask = nullptr;
   int group = 0;      ///< bit of the atoms that feel the fluid
   int integrated = 0; ///< bits of the atoms that a fix integrates
@@ -57,7 +69,7 @@ class Effect {
   /// Quantities of the fluid that the closure reads.
   virtual unsigned needs() const = 0;
   /// Prepares what depends on shapes only; called at set-up.
-  virtual void prepare(const ParticleGeometry&) {}
+  virtual void prepare(const ShapeCatalogue&) {}
   virtual void apply(const Kick& kick) = 0;
 
   /// Sum over this rank's particles of the force (or torque) of the last kick, world frame.

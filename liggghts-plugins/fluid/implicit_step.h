@@ -12,13 +12,14 @@ namespace eccentra::fluid {
 
 /// A resistance R(U) = area * X(U/length) * G(Re), Re = inertia * U^2 / X: drag (U a slip speed) with area (pi/8) d^2,
 /// or rotational drag (U a relative spin). `Stress` is X, `Law` is the reduced coefficient G = C_D Re with slope
-/// dG/dRe. The form has no 0/0: at rest R = area * X(0) * G(0), the yield resistance.
+/// dG/dRe. The form has no 0/0: at rest R = area * X(0) * G(0), the yield resistance. A law with kAffine says G =
+/// viscous() + plateau() Re, and needs no Re at all.
 template <class Stress, class Law> struct Resistance {
   Stress stress;
   Law law;
-  double area;    ///< [m2] for a force, [m3] for a torque
-  double length;  ///< [m] for a force, 1 for a torque
-  double inertia; ///< [kg/m3] for a force, [kg/m] for a torque
+  double area;           ///< [m2] for a force, [m3] for a torque
+  double inverse_length; ///< [1/m] for a force, 1 for a torque
+  double inertia;        ///< [kg/m3] for a force, [kg/m] for a torque
 
   double at_rest() const {
     const double yield = stress.at_rest();
@@ -26,17 +27,24 @@ template <class Stress, class Law> struct Resistance {
   }
   /// speed > 0.
   ValueAndSlope operator()(double speed) const {
-    const ValueAndSlope x = stress(speed / length);
-    const double x_slope = x.slope / length;
-    const double re = inertia * speed * speed / x.value;
-    const double re_slope = re * (2.0 / speed - x_slope / x.value);
-    const ValueAndSlope g = law(re);
-    return {area * x.value * g.value, area * (x_slope * g.value + x.value * g.slope * re_slope)};
+    const ValueAndSlope x = stress(speed, inverse_length);
+    const double inertial = inertia * speed * speed;
+    const double inertial_slope = 2.0 * inertia * speed;
+    if constexpr (Law::kAffine) {
+      return {area * (law.viscous() * x.value + law.plateau() * inertial),
+              area * (law.viscous() * x.slope + law.plateau() * inertial_slope)};
+    } else {
+      // X G(I/X) is homogeneous in X and I.
+      const double re = inertial / x.value;
+      const ValueAndSlope g = law(re);
+      return {area * x.value * g.value, area * ((g.value - re * g.slope) * x.slope + g.slope * inertial_slope)};
+    }
   }
 };
 
-/// Relative change below which Newton's iteration ends: the error left is of the order of its square.
-constexpr double kNewtonTolerance = 1e-7;
+/// Relative change below which Newton's iteration ends. The error left in speed and resistance is of the order of its
+/// square, far below that of the time step; what is exchanged is exact for any tolerance.
+constexpr double kNewtonTolerance = 1e-3;
 constexpr int kNewtonLimit = 100;
 /// Where Newton leaves its bracket and nothing is known below, the next trial is this part of what is known above.
 constexpr double kBracketShrink = 0.1;
@@ -51,7 +59,10 @@ struct ImplicitSlip {
 /// particle (compliance * R(0) >= free_slip): the return mapping of a yield stress.
 /// free_slip > 0: speed without the resistance; compliance: dt/m, 0 for what nothing can move; guess: any, best the
 /// speed before.
-template <class R> ImplicitSlip implicit_slip(const R& resistance, double free_slip, double compliance, double guess) {
+/// Inlined by order: the loops around it are short enough to feel a call.
+template <class R>
+[[gnu::always_inline]] inline ImplicitSlip implicit_slip(const R& resistance, double free_slip, double compliance,
+                                                         double guess) {
   if (compliance == 0.0)
     return {free_slip, resistance(free_slip).value};
   if (compliance * resistance.at_rest() >= free_slip)

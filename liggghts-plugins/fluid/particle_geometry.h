@@ -4,6 +4,7 @@
 #pragma once
 
 #include "fluid/drag_laws.h"
+#include "fluid/effect.h"
 #include "fluid/rheology.h"
 
 #include "fluid/projected_area.h"
@@ -28,7 +29,7 @@ inline double sphere_volume(double radius) {
 /// Size and shape of every local atom. A plain sphere is itself; a cluster is the union of its spheres, never its
 /// bounding sphere. A "kind" numbers all particles that share shape factors: atom types (from 1), then clusters'
 /// shapes.
-class ParticleGeometry {
+class ParticleGeometry : public ShapeCatalogue {
  public:
   explicit ParticleGeometry(LAMMPS_NS::LAMMPS* lmp) : lmp_(lmp) {}
 
@@ -43,12 +44,10 @@ class ParticleGeometry {
   const double* radius() const;
   /// Kind of each local atom.
   const int* kind() const;
-  int kinds() const;
-  ShapeFactors factors(int kind) const;
-  /// Smallest principal moment of inertia over m R_eq^2; 0.4 for a sphere.
-  double inertia_factor(int kind) const;
-  /// phi_perp of local atom i for a flow along `direction` (any length, world frame); 1 for a plain sphere.
-  double crosswise_sphericity(int i, const double* direction) const;
+  int kinds() const override;
+  ShapeFactors factors(int kind) const override;
+  double inertia_factor(int kind) const override;
+  double crosswise_sphericity(int i, const double* direction) const override;
 
   double volume(int i) const { return sphere_volume(radius_of(i)); }
   double diameter(int i) const { return 2.0 * radius_of(i); }

@@ -9,6 +9,11 @@ namespace eccentra::fluid {
 
 constexpr double kPi = 3.14159265358979323846;
 
+/// Volume of the sphere of this radius.
+inline double sphere_volume(double radius) {
+  return 4.0 / 3.0 * kPi * radius * radius * radius;
+}
+
 /// Weight of the Bingham number in eq (23) (Ansley & Smith 1967).
 constexpr double kAnsleySmith = 7.0 * kPi / 24.0;
 
@@ -39,10 +44,10 @@ struct HerschelBulkleyStress {
       : yield(kAnsleySmith * fluid.yield_stress), consistency(fluid.consistency), index(fluid.index) {}
 
   double at_rest() const { return yield; }
-  /// rate > 0 [1/s]; the slope is dX/d rate [Pa s].
-  ValueAndSlope operator()(double rate) const {
-    const double viscous = consistency * std::pow(rate, index);
-    return {yield + viscous, index * viscous / rate};
+  /// X(speed/length) and dX/d speed; speed > 0.
+  ValueAndSlope operator()(double speed, double inverse_length) const {
+    const double viscous = consistency * std::pow(speed * inverse_length, index);
+    return {yield + viscous, index * viscous / speed};
   }
 };
 
@@ -53,7 +58,10 @@ struct NewtonianStress {
   explicit NewtonianStress(const Rheology& fluid) : viscosity(fluid.consistency) {}
 
   double at_rest() const { return 0.0; }
-  ValueAndSlope operator()(double rate) const { return {viscosity * rate, viscosity}; }
+  ValueAndSlope operator()(double speed, double inverse_length) const {
+    const double slope = viscosity * inverse_length;
+    return {slope * speed, slope};
+  }
 };
 
 /// Re_PL = rho U^(2-n) d^n / k.
@@ -70,13 +78,12 @@ inline double bingham(const Rheology& f, double speed, double diameter) {
 inline double reynolds_herschel_bulkley(const Rheology& f, double speed, double diameter) {
   if (!(speed > 0.0))
     return 0.0;
-  return f.density * speed * speed / HerschelBulkleyStress(f)(speed / diameter).value;
+  return f.density * speed * speed / HerschelBulkleyStress(f)(speed, 1.0 / diameter).value;
 }
 
 /// Viscosity that a particle of this diameter meets at this slip speed: rho U d / Re_HB [Pa s]; speed > 0.
 inline double particle_viscosity(const Rheology& f, double speed, double diameter) {
-  const double rate = speed / diameter;
-  return HerschelBulkleyStress(f)(rate).value / rate;
+  return HerschelBulkleyStress(f)(speed, 1.0 / diameter).value * diameter / speed;
 }
 
 } // namespace eccentra::fluid

@@ -16,6 +16,7 @@ namespace eccentra::fluid {
 struct Dennis {
   static constexpr double kSwitchRe = 32.0, kHighestRe = 1000.0;
   static constexpr double kStokes = 64.0 * kPi, kRoot = 12.9, kLinear = 128.4;
+  static constexpr bool kAffine = false;
   static constexpr double kAreaPart = 1.0 / 64.0;
 
   ValueAndSlope operator()(double re) const {
@@ -37,9 +38,9 @@ template <class Stress> struct SpinStress {
   double slip_rate; ///< U/d [1/s]
 
   double at_rest() const { return slip_rate > 0.0 ? 0.0 : stress.at_rest(); }
-  ValueAndSlope operator()(double spin) const {
+  ValueAndSlope operator()(double spin, double) const {
     const double rate = std::sqrt(slip_rate * slip_rate + spin * spin);
-    const ValueAndSlope x = stress(rate);
+    const ValueAndSlope x = stress(rate, 1.0);
     const double viscosity = x.value / rate;
     return {viscosity * spin, viscosity + spin * spin * (x.slope - viscosity) / (rate * rate)};
   }
@@ -49,7 +50,7 @@ template <> struct SpinStress<NewtonianStress> {
   double slip_rate;
 
   double at_rest() const { return 0.0; }
-  ValueAndSlope operator()(double spin) const { return stress(spin); }
+  ValueAndSlope operator()(double spin, double) const { return stress(spin, 1.0); }
 };
 
 } // namespace eccentra::fluid

@@ -5,7 +5,6 @@
 
 #include "fluid/effect.h"
 #include "fluid/implicit_step.h"
-#include "fluid/particle_geometry.h"
 #include "fluid/rotation_laws.h"
 #include "fluid/vectors.h"
 
@@ -21,10 +20,10 @@ template <class Stress> class RotationalDrag : public Effect {
 
   const char* name() const override { return "drag_torque"; }
   unsigned needs() const override { return newtonian_ ? kVorticity : kVorticity | kVelocity; }
-  void prepare(const ParticleGeometry& geometry) override {
+  void prepare(const ShapeCatalogue& shapes) override {
     gyration_.clear();
-    for (int kind = 0; kind < geometry.kinds(); ++kind)
-      gyration_.push_back(geometry.inertia_factor(kind));
+    for (int kind = 0; kind < shapes.kinds(); ++kind)
+      gyration_.push_back(shapes.inertia_factor(kind));
   }
 
   void apply(const Kick& kick) override {
