@@ -269,7 +269,8 @@ void averagedFlow::correctPressure(fvVectorMatrix& UEqn) {
 
   tmp<volScalarField::Internal> rate;
   if (c) {
-    rate = fvc::ddt(c->alpha)()();
+    // A copy: what ddt returns does not live beyond this line.
+    rate = tmp<volScalarField::Internal>(new volScalarField::Internal(fvc::ddt(c->alpha)()()));
   }
   while (pimple_.correctNonOrthogonal()) {
     tmp<fvScalarMatrix> tpEqn;
