@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The fluid as the DEM side sees it, whatever carries the data. No LIGGGHTS types, no OpenFOAM types.
+#pragma once
+
+#include "fluid/fluid_quantities.h"
+#include "link/terms.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace eccentra::link {
+
+/// What the fluid side stores with a particle from one meeting to the next (where it was found); it travels with the
+/// particle between the ranks of DEM and means nothing to DEM. Negative: not met yet.
+struct Ticket {
+  std::int32_t rank = -1;
+  std::int32_t cell = -1;
+};
+
+/// Doubles of a particle's extent: three vectors, see ParticleArrays.
+constexpr int kExtentDoubles = 9;
+
+/// This rank's particles, one row each. World frame, SI; positions inside the periodic box.
+struct ParticleArrays {
+  std::size_t count = 0;
+  const double (*position)[3] = nullptr;
+  const double* volume = nullptr;           ///< of the solid [m3]
+  const double (*impulse)[3] = nullptr;     ///< that the fluid gave since the last meeting: drag and lifts [N s]
+  const double* drag_coefficient = nullptr; ///< integral of beta dt since the last meeting [kg]
+  /// Null where all particles are spheres. Else vectors e_1 e_2 e_3: six points at +-e_k, each with a sixth of the
+  /// volume, have the second moments of the body: e_k = sqrt(3 M_kk / V) along principal axis k.
+  const double (*extent)[kExtentDoubles] = nullptr;
+  Ticket* ticket = nullptr;
+};
+
+/// Sums over all particles of all ranks, for the balances. World frame, SI.
+struct DemTotals {
+  std::int64_t particles = 0;
+  double volume = 0;                     ///< [m3]
+  double mass = 0;                       ///< [kg]
+  double impulse[3] = {0, 0, 0};         ///< sum of ParticleArrays::impulse [N s]
+  double momentum[3] = {0, 0, 0};        ///< sum m v [kg m/s]
+  double volume_position[3] = {0, 0, 0}; ///< sum V x [m4]
+  double volume_velocity[3] = {0, 0, 0}; ///< sum V v [m4/s]
+  double fastest = 0;                    ///< largest |v| [m/s]
+};
+
+/// One meeting.
+struct Meeting {
+  double elapsed = 0;           ///< DEM time since the last meeting [s]; 0 at the first: nothing advances
+  double dem_seconds = 0;       ///< wall-clock time that this rank's DEM took since the last meeting [s]
+  double pack_seconds = 0;      ///< and of packing and unpacking at the last meeting [s]
+  std::int64_t steps_done = 0;  ///< DEM steps of the present run
+  std::int64_t steps_total = 0; ///< its length
+  DemTotals totals;
+};
+
+/// The fluid. All calls are collective over the ranks of DEM, and may throw Refusal (on every rank alike).
+class FluidPeer {
+ public:
+  virtual ~FluidPeer() = default;
+  /// States the DEM side's terms and returns the fluid side's; throws Refusal if they disagree.
+  virtual FluidTerms agree(const DemTerms& dem) = 0;
+  /// Hands over the particles, advances the flow by `meeting.elapsed`, and fills the non-null arrays of `samples`
+  /// (rows as in `particles`).
+  virtual void meet(const Meeting& meeting, const ParticleArrays& particles, const fluid::FluidSamples& samples) = 0;
+  /// The present run of DEM has ended as intended.
+  virtual void run_ended() = 0;
+};
+
+/// The fluid solver that hosts DEM in this process (link `solver`), or null. Set by that solver.
+FluidPeer*& hosting_solver();
+
+} // namespace eccentra::link

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the two solvers state before they exchange anything, and the rules by which they refuse each other.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+namespace eccentra::link {
+
+/// Raised whenever the layout or the meaning of anything that crosses the link changes.
+constexpr std::uint32_t kProtocolVersion = 1;
+
+/// A box aligned with the axes [m] and the directions in which it repeats.
+struct Extents {
+  double low[3] = {0, 0, 0};
+  double high[3] = {0, 0, 0};
+  bool periodic[3] = {false, false, false};
+};
+
+/// The DEM side's statement.
+struct DemTerms {
+  std::uint32_t protocol = kProtocolVersion;
+  double length_unit = 1.0;      ///< metres in one unit of length of the script (`units si`: 1)
+  double time_step = 0.0;        ///< of DEM [s]
+  std::int64_t interval = 0;     ///< DEM steps from one meeting to the next
+  std::int64_t particles = 0;    ///< in the whole domain, now
+  Extents domain;                ///< of the simulation box
+  unsigned needed = 0;           ///< fluid::Quantity bits that the declared closures ask for
+  bool extents = false;          ///< particles come with their extent (clusters), not with their volume alone
+  double fluid_density = 0.0;    ///< that the closures were told [kg/m3]; 0: none was
+  double gravity[3] = {0, 0, 0}; ///< that acts on the particles [m/s2]
+};
+
+/// The fluid side's statement.
+struct FluidTerms {
+  std::uint32_t protocol = kProtocolVersion;
+  double length_unit = 1.0;   ///< metres in one unit of length of the mesh
+  double time_step = 0.0;     ///< of one meeting: what the flow advances by [s]
+  Extents domain;             ///< bounding box of the mesh
+  unsigned offered = 0;       ///< fluid::Quantity bits that it can compute
+  double fluid_density = 0.0; ///< [kg/m3]
+};
+
+/// One of the two sides, or what lies between them, cannot go on; what() is the one sentence for the user.
+class Refusal : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The sentence that says why the two cannot work together, or an empty string if they can.
+std::string disagreement(const DemTerms& dem, const FluidTerms& fluid);
+
+} // namespace eccentra::link
