@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Deposit and sample, with the same weights.
+#include "particleExchange.H"
+
+#include "fvcGrad.H"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace eccentra::exchange {
+
+using namespace Foam;
+
+namespace {
+
+std::invalid_argument wrong(const char* keyword, double value, const char* remedy) {
+  return std::invalid_argument(std::string(keyword) + " is " + std::to_string(value) + ": " + remedy);
+}
+
+std::array<double, 3> sumOverRanks(const vector& v) {
+  vector sum(v);
+  reduce(sum, sumOp<vector>());
+  return {sum.x(), sum.y(), sum.z()};
+}
+
+/// Value at a point: that of its cell, with the gradient there.
+template <class Value, class Gradient>
+Value linear(const Value& value, const Gradient& gradient, const vector& fromCentre) {
+  return value + (fromCentre & gradient);
+}
+
+} // namespace
+
+particleExchange::particleExchange(const fvMesh& mesh, const ExchangeSettings& settings)
+    : mesh_(mesh), settings_(settings), guests_(mesh), overflow_(mesh, settings.mostSolid),
+      solidGuess_(mesh.nCells(), Zero), dragGuess_(mesh.nCells(), Zero), solidVolume_(mesh.nCells(), Zero) {
+  if (!(settings.mostSolid > 0 && settings.mostSolid < 1))
+    throw wrong("mostSolid", settings.mostSolid, "give a fraction between 0 and 1, such as 0.74");
+  if (!(settings.fractionFloor >= 0 && settings.fractionFloor < 1))
+    throw wrong("fractionFloor", settings.fractionFloor, "give a fraction from 0 to below 1, such as 0.3");
+  const bool spreads = settings.method == VoidFraction::diffusion || settings.method == VoidFraction::gaussian;
+  if (spreads && !(settings.length > 0))
+    throw wrong("length", settings.length, "give a positive length in metres, such as three particle diameters");
+  if (!(settings.tolerance > 0 && settings.tolerance < 1))
+    throw wrong("tolerance", settings.tolerance, "give a number between 0 and 1, such as 1e-9");
+  if (settings.method == VoidFraction::diffusion)
+    diffusion_ = std::make_unique<conservativeDiffusion>(mesh, settings.length, settings.tolerance);
+  for (auto* guesses : {&forceGuess_, &pressureGuess_, &stressGuess_})
+    for (scalarField& guess : *guesses)
+      guess.setSize(mesh.nCells(), Zero);
+}
+
+void particleExchange::spread(scalarField& amount, scalarField& perVolume) {
+  if (diffusion_) {
+    diffusion_->spread(amount, perVolume);
+    amount = perVolume * mesh_.V();
+  }
+}
+
+void particleExchange::deposit(const link::ParticleArrays& particles, double elapsed, scalarField& solid,
+                               vectorField* force, scalarField* drag) {
+  guests_.invite(particles, settings_.method, settings_.length);
+  const label cells = mesh_.nCells();
+  std::array<scalarField, 3> impulse;
+  scalarField dragAmount(drag ? cells : 0, Zero);
+  for (auto& component : impulse)
+    component.setSize(force ? cells : 0, Zero);
+  solidVolume_ = Zero;
+  for (const Guest& guest : guests_.here()) {
+    solidVolume_[guest.at.cell] += guest.volume;
+    if (force)
+      for (int k = 0; k < 3; ++k)
+        impulse[k][guest.at.cell] += guest.impulse[k];
+    if (drag)
+      dragAmount[guest.at.cell] += guest.drag;
+  }
+  spread(solidVolume_, solidGuess_);
+  balance_.fits = overflow_.settle(solidVolume_);
+  solid = solidVolume_ / mesh_.V();
+
+  const double rate = elapsed > 0 ? 1.0 / elapsed : 0.0;
+  vector meshImpulse(Zero);
+  if (force)
+    force->setSize(cells);
+  for (int k = 0; k < 3 && force; ++k) {
+    spread(impulse[k], forceGuess_[k]);
+    overflow_.spread(impulse[k]);
+    meshImpulse[k] = sum(impulse[k]);
+    force->replace(k, -rate * impulse[k] / mesh_.V());
+  }
+  if (drag) {
+    spread(dragAmount, dragGuess_);
+    overflow_.spread(dragAmount);
+    // The linear solver's tolerance may leave a drag coefficient of -1e-20 where no particle is.
+    *drag = rate * max(dragAmount, 0.0) / mesh_.V();
+  }
+
+  double volume = 0, scale = 0;
+  vector particleImpulse(Zero);
+  for (std::size_t i = 0; i < particles.count; ++i) {
+    volume += particles.volume[i];
+    const vector own(particles.impulse[i][0], particles.impulse[i][1], particles.impulse[i][2]);
+    particleImpulse += own;
+    scale += mag(own);
+  }
+  balance_.impulseScale = returnReduce(scale, sumOp<scalar>());
+  balance_.particleVolume = returnReduce(volume, sumOp<scalar>());
+  balance_.meshVolume = gSum(solidVolume_);
+  balance_.particleImpulse = sumOverRanks(particleImpulse);
+  balance_.meshImpulse = sumOverRanks(meshImpulse);
+}
+
+void particleExchange::sampleAdjoint(vectorField& field, std::array<scalarField, 3>& guess) {
+  for (int k = 0; k < 3; ++k) {
+    scalarField component(field.component(k));
+    overflow_.sample(component);
+    if (diffusion_) {
+      diffusion_->sample(component, guess[k]);
+      component = guess[k];
+    }
+    field.replace(k, component);
+  }
+}
+
+void particleExchange::sample(const FlowFields& flow, const link::ParticleArrays& particles,
+                              const fluid::FluidSamples& samples) {
+  tmp<volTensorField> gradU;
+  if (samples.velocity || samples.vorticity)
+    gradU = fvc::grad(*flow.velocity);
+  tmp<volVectorField> gradFraction;
+  if (samples.fraction)
+    gradFraction = fvc::grad(*flow.fraction);
+  vectorField pressure, stress;
+  if (samples.pressure_gradient) {
+    pressure = *flow.pressureGradient;
+    sampleAdjoint(pressure, pressureGuess_);
+  }
+  if (samples.stress_divergence) {
+    stress = *flow.stressDivergence;
+    sampleAdjoint(stress, stressGuess_);
+  }
+
+  const int perCentre = (samples.velocity ? 3 : 0) + (samples.fraction ? 1 : 0) + (samples.vorticity ? 3 : 0);
+  const int perPoint = (samples.pressure_gradient ? 3 : 0) + (samples.stress_divergence ? 3 : 0);
+  const auto put = [](double*& at, const vector& v) {
+    for (int k = 0; k < 3; ++k)
+      *at++ = v[k];
+  };
+  const auto fill = [&](const Guest& guest, double* at) {
+    const label cell = guest.at.cell;
+    if (guest.centre) {
+      const point x(guest.at.position[0], guest.at.position[1], guest.at.position[2]);
+      const vector fromCentre(guest.outside ? vector(Zero) : x - mesh_.cellCentres()[cell]);
+      if (samples.velocity)
+        put(at, linear((*flow.velocity)[cell], gradU()[cell], fromCentre));
+      if (samples.fraction)
+        *at++ =
+            std::clamp(linear((*flow.fraction)[cell], gradFraction()[cell], fromCentre), settings_.fractionFloor, 1.0);
+      if (samples.vorticity)
+        put(at, 2.0 * (*skew(gradU()[cell])));
+    }
+    if (samples.pressure_gradient)
+      put(at, guest.weight * pressure[cell]);
+    if (samples.stress_divergence)
+      put(at, guest.weight * stress[cell]);
+  };
+  for (std::size_t i = 0; i < particles.count; ++i)
+    for (int k = 0; k < 3; ++k) {
+      if (samples.pressure_gradient)
+        samples.pressure_gradient[i][k] = 0;
+      if (samples.stress_divergence)
+        samples.stress_divergence[i][k] = 0;
+    }
+  const auto add = [&](int row, const double* centre, const double* point) {
+    if (centre) {
+      if (samples.velocity)
+        for (int k = 0; k < 3; ++k)
+          samples.velocity[row][k] = *centre++;
+      if (samples.fraction)
+        samples.fraction[row] = *centre++;
+      if (samples.vorticity)
+        for (int k = 0; k < 3; ++k)
+          samples.vorticity[row][k] = *centre++;
+    }
+    if (samples.pressure_gradient)
+      for (int k = 0; k < 3; ++k)
+        samples.pressure_gradient[row][k] += *point++;
+    if (samples.stress_divergence)
+      for (int k = 0; k < 3; ++k)
+        samples.stress_divergence[row][k] += *point++;
+  };
+  guests_.answer(perCentre, perPoint, fill, add);
+  guests_.stampTickets(particles.ticket);
+  balanceForces(flow, particles, samples);
+}
+
+void particleExchange::balanceForces(const FlowFields& flow, const link::ParticleArrays& particles,
+                                     const fluid::FluidSamples& samples) {
+  vector onMesh(Zero), onParticles(Zero);
+  double scale = 0;
+  const auto addField = [&](const vectorField& field) { onMesh += sum(vectorField(solidVolume_ * field)); };
+  const auto addSamples = [&](const double(*values)[3]) {
+    for (std::size_t i = 0; i < particles.count; ++i) {
+      const vector force(particles.volume[i] * vector(values[i][0], values[i][1], values[i][2]));
+      onParticles += force;
+      scale += mag(force);
+    }
+  };
+  if (samples.pressure_gradient) {
+    addField(*flow.pressureGradient);
+    addSamples(samples.pressure_gradient);
+  }
+  if (samples.stress_divergence) {
+    addField(*flow.stressDivergence);
+    addSamples(samples.stress_divergence);
+  }
+  balance_.pressureForceScale = returnReduce(scale, sumOp<scalar>());
+  balance_.meshPressureForce = sumOverRanks(onMesh);
+  balance_.particlePressureForce = sumOverRanks(onParticles);
+}
+
+} // namespace eccentra::exchange
