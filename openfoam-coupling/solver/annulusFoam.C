@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // annulusFoam: flow of a generalised-Newtonian fluid in an annulus (or any other mesh), alone or with particles.
 #include "averagedFlow.H"
+#include "coupledRun.H"
 #include "flowProgress.H"
 #include "inputError.H"
 #include "timeStepControl.H"
@@ -20,6 +21,10 @@ void run(const argList& args) {
   }
   Time runTime(Time::controlDictName, args);
   fvMesh mesh(IOobject(fvMesh::defaultRegion, runTime.timeName(), runTime, IOobject::MUST_READ));
+  if (eccentra::coupledRun::wanted(runTime)) {
+    eccentra::coupledRun(mesh, args.found("verbose")).run();
+    return;
+  }
   averagedFlow flow(mesh, averagedFlow::particles::none);
   timeStepControl timeStep(runTime);
   flowProgress progress(runTime, flow, args.found("verbose"));

@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Implements fix fluid/couple.
+#include "fluid/fix_fluid_couple.h"
+
+#include "host/style_registry.h"
+
+#include <mpi.h>
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_gravity.h"
+#include "lammps.h"
+#include "modify.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+namespace eccentra::fluid {
+
+namespace {
+const host::RegisterFix<FixFluidCouple> kRecord("fluid/couple", "meets a fluid solver every N steps");
+
+constexpr int kTicketDoubles = 2;
+
+using RowsOfThree = const double (*)[3];
+} // namespace
+
+FixFluidCouple::FixFluidCouple(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {
+  read(std::vector<std::string>(arg + 3, arg + narg));
+  if (igroup != 0)
+    refuse("works on all particles: write 'fix " + std::string(id) + " all fluid/couple ...'");
+  nevery = 1;
+  create_attribute = 1;
+  grow_arrays(atom->nmax);
+  atom->add_callback(0);
+}
+
+FixFluidCouple::~FixFluidCouple() {
+  atom->delete_callback(id, 0);
+}
+
+void FixFluidCouple::refuse(const std::string& text) {
+  error->all(FLERR, ("fix fluid/couple '" + std::string(id) + "': " + text).c_str());
+  std::abort(); // error->all does not return
+}
+
+void FixFluidCouple::read(const std::vector<std::string>& words) {
+  for (std::size_t next = 0; next < words.size();) {
+    const std::string& keyword = words[next++];
+    const auto value = [&](const char* what) -> const std::string& {
+      if (next >= words.size())
+        refuse("the word '" + keyword + "' needs " + what);
+      return words[next++];
+    };
+    if (keyword == "link") {
+      link_ = value("'solver' or 'socket ADDRESS'");
+      if (link_ == "socket")
+        address_ = value("'socket ADDRESS', such as ipc:///tmp/eccentra.sock");
+      else if (link_ != "solver")
+        refuse("link '" + link_ + "' is unknown: use solver, or socket ADDRESS");
+    } else if (keyword == "every") {
+      const std::string& text = value("a number of DEM steps");
+      char* end = nullptr;
+      const long number = std::strtol(text.c_str(), &end, 10);
+      if (end == text.c_str() || *end || number < 1 || number > 1000000000L)
+        refuse("every has '" + text + "': give a whole number of DEM steps from 1 on");
+      interval_ = static_cast<int>(number);
+    } else {
+      refuse("unknown word '" + keyword + "': known are link solver|socket ADDRESS and every N");
+    }
+  }
+  if (link_.empty())
+    refuse("the word 'link' is missing: add link solver (the fluid solver hosts this script) or link socket ADDRESS");
+  if (interval_ == 0)
+    refuse("the word 'every' is missing: add every N, the DEM steps from one meeting with the fluid to the next");
+}
+
+int FixFluidCouple::setmask() {
+  return FixConst::END_OF_STEP;
+}
+
+// Tickets of all atoms are blank already; LIGGGHTS need not visit them again at the first set-up.
+void FixFluidCouple::post_create() {
+  just_created = 0;
+}
+
+void FixFluidCouple::init() {
+  forces_ = FixFluidForce::find(lmp);
+  if (!forces_)
+    refuse("meets a fluid that nothing feels: add fix fluid/force before the run");
+  forces_->announce_source(id);
+  if (domain->triclinic)
+    refuse("needs a box with right angles: make the simulation box orthogonal");
+  if (link_ == "solver") {
+    peer_ = link::hosting_solver();
+    if (!peer_)
+      refuse("link solver needs a fluid solver that hosts this script: start annulusFoam in the case folder instead of "
+             "this program, or use link socket ADDRESS");
+  } else {
+    refuse("link socket is not built into this library");
+  }
+}
+
+link::DemTerms FixFluidCouple::terms() const {
+  link::DemTerms terms;
+  terms.length_unit = std::strcmp(update->unit_style, "si") == 0 ? 1.0 : 0.0;
+  terms.time_step = update->dt;
+  terms.interval = interval_;
+  terms.particles = atom->natoms;
+  for (int k = 0; k < 3; ++k) {
+    terms.domain.low[k] = domain->boxlo[k];
+    terms.domain.high[k] = domain->boxhi[k];
+    terms.domain.periodic[k] = domain->periodicity[k] != 0;
+  }
+  terms.needed = forces_->needs();
+  terms.extents = !extent_.empty();
+  terms.fluid_density = forces_->rho_f();
+  for (int i = 0; i < modify->nfix; ++i)
+    if (std::strcmp(modify->fix[i]->style, "gravity") == 0)
+      static_cast<FixGravity*>(modify->fix[i])->get_gravity(terms.gravity);
+  return terms;
+}
+
+// Every run of a script states the terms anew: time step and effects may have changed since the last one.
+void FixFluidCouple::setup(int) {
+  const bigint steps = update->laststep - update->firststep;
+  if (steps % interval_ != 0)
+    refuse("a run of " + std::to_string(steps) + " steps is not a whole number of intervals of " +
+           std::to_string(interval_) + ": change the run's length or every");
+  if (!agreed_)
+    tickets_.assign(tickets_.size(), link::Ticket{});
+  pack();
+  try {
+    peer_->agree(terms());
+  } catch (const link::Refusal& refusal) {
+    refuse(refusal.what());
+  }
+  agreed_ = true;
+  if (!met_) {
+    forces_->reset_reaction();
+    meet(0.0);
+    met_ = true;
+  }
+  countdown_ = interval_;
+  left_fluid_at_ = MPI_Wtime();
+}
+
+void FixFluidCouple::end_of_step() {
+  if (--countdown_ > 0)
+    return;
+  countdown_ = interval_;
+  meet(interval_ * update->dt);
+  forces_->reset_reaction();
+}
+
+void FixFluidCouple::post_run() {
+  if (agreed_)
+    peer_->run_ended();
+}
+
+void FixFluidCouple::pack() {
+  const int count = atom->nlocal;
+  position_.resize(3 * std::size_t(count));
+  volume_.resize(count);
+  for (int i = 0; i < count; ++i) {
+    double* x = position_.data() + 3 * std::size_t(i);
+    std::copy_n(atom->x[i], 3, x);
+    // Between neighbour rebuilds LIGGGHTS lets positions run out of a periodic box.
+    domain->remap(x);
+    volume_[i] = forces_->particle_volume(i);
+  }
+}
+
+link::DemTotals FixFluidCouple::totals() const {
+  link::DemTotals sums;
+  const FluidReaction reaction = forces_->reaction();
+  enum {
+    kVolume,
+    kMass,
+    kImpulse,
+    kMomentum = kImpulse + 3,
+    kPosition = kMomentum + 3,
+    kVelocity = kPosition + 3,
+    kCount = kVelocity + 3
+  };
+  double mine[kCount] = {};
+  double fastest = 0;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    mine[kVolume] += volume_[i];
+    mine[kMass] += atom->rmass[i];
+    double speed = 0;
+    for (int k = 0; k < 3; ++k) {
+      mine[kImpulse + k] += reaction.impulse[i][k];
+      mine[kMomentum + k] += atom->rmass[i] * atom->v[i][k];
+      mine[kPosition + k] += volume_[i] * position_[3 * std::size_t(i) + k];
+      mine[kVelocity + k] += volume_[i] * atom->v[i][k];
+      speed += atom->v[i][k] * atom->v[i][k];
+    }
+    fastest = std::max(fastest, speed);
+  }
+  double all[kCount];
+  MPI_Allreduce(mine, all, kCount, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(&fastest, &sums.fastest, 1, MPI_DOUBLE, MPI_MAX, world);
+  sums.fastest = std::sqrt(sums.fastest);
+  sums.particles = atom->natoms;
+  sums.volume = all[kVolume];
+  sums.mass = all[kMass];
+  std::copy_n(all + kImpulse, 3, sums.impulse);
+  std::copy_n(all + kMomentum, 3, sums.momentum);
+  std::copy_n(all + kPosition, 3, sums.volume_position);
+  std::copy_n(all + kVelocity, 3, sums.volume_velocity);
+  return sums;
+}
+
+void FixFluidCouple::meet(double elapsed) {
+  const double arrived = MPI_Wtime();
+  link::Meeting meeting;
+  meeting.elapsed = elapsed;
+  meeting.dem_seconds = elapsed > 0 ? arrived - left_fluid_at_ : 0.0;
+  meeting.pack_seconds = pack_seconds_;
+  meeting.steps_done = update->ntimestep - update->firststep;
+  meeting.steps_total = update->laststep - update->firststep;
+  pack();
+  meeting.totals = totals();
+  const FluidReaction reaction = forces_->reaction();
+  link::ParticleArrays particles;
+  particles.count = atom->nlocal;
+  particles.position = reinterpret_cast<RowsOfThree>(position_.data());
+  particles.volume = volume_.data();
+  particles.impulse = reaction.impulse;
+  particles.drag_coefficient = reaction.drag_coefficient;
+  if (!extent_.empty())
+    particles.extent = reinterpret_cast<const double(*)[link::kExtentDoubles]>(extent_.data());
+  particles.ticket = tickets_.data();
+  pack_seconds_ = MPI_Wtime() - arrived;
+  peer_->meet(meeting, particles, forces_->samples());
+  left_fluid_at_ = MPI_Wtime();
+}
+
+void FixFluidCouple::grow_arrays(int rows) {
+  tickets_.resize(rows);
+}
+
+void FixFluidCouple::copy_arrays(int from, int to, int) {
+  tickets_[to] = tickets_[from];
+}
+
+void FixFluidCouple::set_arrays(int i) {
+  tickets_[i] = link::Ticket{};
+}
+
+int FixFluidCouple::pack_exchange(int i, double* buffer) {
+  buffer[0] = tickets_[i].rank;
+  buffer[1] = tickets_[i].cell;
+  return kTicketDoubles;
+}
+
+int FixFluidCouple::unpack_exchange(int row, double* buffer) {
+  tickets_[row] = {static_cast<std::int32_t>(buffer[0]), static_cast<std::int32_t>(buffer[1])};
+  return kTicketDoubles;
+}
+
+double FixFluidCouple::memory_usage() {
+  return double(tickets_.capacity() * sizeof(link::Ticket)) +
+         double((position_.capacity() + volume_.capacity() + extent_.capacity()) * sizeof(double));
+}
+
+} // namespace eccentra::fluid

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fix style fluid/couple: every N steps the particles meet the fluid, inside one LIGGGHTS run.
+#pragma once
+
+#include "fluid/fix_fluid_force.h"
+#include "link/fluid_peer.h"
+
+#include <mpi.h>
+
+#include "fix.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace eccentra::fluid {
+
+/// Hands positions, volumes and the impulses that fix fluid/force has gathered to the fluid, and puts what the flow is
+/// at each particle into fix fluid/force. Knows the fluid only as a link::FluidPeer.
+class FixFluidCouple : public LAMMPS_NS::Fix {
+ public:
+  FixFluidCouple(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
+  ~FixFluidCouple() override;
+
+  int setmask() override;
+  void post_create() override;
+  void init() override;
+  void setup(int vflag) override;
+  void end_of_step() override;
+  void post_run() override;
+
+  void grow_arrays(int rows) override;
+  void copy_arrays(int from, int to, int delflag) override;
+  void set_arrays(int i) override;
+  int pack_exchange(int i, double* buffer) override;
+  int unpack_exchange(int row, double* buffer) override;
+  double memory_usage() override;
+
+ private:
+  [[noreturn]] void refuse(const std::string& text);
+  void read(const std::vector<std::string>& words);
+  link::DemTerms terms() const;
+  void meet(double elapsed);
+  void pack();
+  link::DemTotals totals() const;
+
+  std::string link_;
+  std::string address_;
+  int interval_ = 0;
+  int countdown_ = 0;
+  bool agreed_ = false;
+  bool met_ = false;
+  link::FluidPeer* peer_ = nullptr;
+  std::unique_ptr<link::FluidPeer> own_peer_;
+  FixFluidForce* forces_ = nullptr;
+
+  std::vector<link::Ticket> tickets_; ///< per atom; migrates
+  std::vector<double> position_;      ///< packed rows of three
+  std::vector<double> volume_;
+  std::vector<double> extent_; ///< packed rows of link::kExtentDoubles; empty where all particles are spheres
+  double left_fluid_at_ = 0;   ///< wall-clock time when the last meeting ended [s]
+  double pack_seconds_ = 0;
+};
+
+} // namespace eccentra::fluid

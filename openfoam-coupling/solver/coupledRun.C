@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The meeting of particles and fluid, on the fluid's side.
+#include "coupledRun.H"
+
+#include "demHost.h"
+#include "inputError.H"
+
+#include "OSspecific.H"
+#include "Time.H"
+#include "cyclicPolyPatch.H"
+#include "processorCyclicPolyPatch.H"
+
+#include <mpi.h>
+
+#include <cfenv>
+#include <chrono>
+#include <cmath>
+#include <exception>
+
+namespace eccentra {
+
+using namespace Foam;
+
+namespace {
+
+constexpr unsigned kOffered =
+    fluid::kVelocity | fluid::kFraction | fluid::kPressureGradient | fluid::kStressDivergence | fluid::kVorticity;
+/// Defaults of lengths, in mean particle diameters.
+constexpr double kDiffusionDiameters = 3.0;
+constexpr double kGaussianDiameters = 1.0;
+/// Meetings from one report to the next.
+constexpr label kReportEvery = 10;
+
+class stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// Keeps the host's messages away while it lives.
+class quiet {
+ public:
+  explicit quiet(bool verbose) : level_(messageStream::level) {
+    if (!verbose)
+      messageStream::level = 0;
+  }
+  ~quiet() { messageStream::level = level_; }
+
+ private:
+  const int level_;
+};
+
+/// LIGGGHTS needs MPI, which OpenFOAM starts in parallel runs only.
+class runningMpi {
+ public:
+  runningMpi() {
+    int running = 0;
+    MPI_Initialized(&running);
+    if (running)
+      return;
+    // Libraries below MPI may trip over trapped floating-point exceptions while they start.
+    std::fenv_t trapping;
+    std::feholdexcept(&trapping);
+    MPI_Init(nullptr, nullptr);
+    std::feclearexcept(FE_ALL_EXCEPT);
+    std::fesetenv(&trapping);
+    ours_ = true;
+  }
+  // OpenFOAM ends what it has not begun only with a warning.
+  ~runningMpi() {
+    if (ours_ && std::uncaught_exceptions() == 0)
+      MPI_Finalize();
+  }
+
+ private:
+  bool ours_ = false;
+};
+
+IOobject propertiesFile(const Time& time) {
+  return IOobject("couplingProperties", time.constant(), time, IOobject::MUST_READ, IOobject::NO_WRITE);
+}
+
+bool readMomentum(const dictionary& properties) {
+  const word momentum(properties.getOrDefault<word>("momentum", "semiImplicit"));
+  if (momentum != "semiImplicit" && momentum != "explicit")
+    throw inputError(properties, "momentum", momentum, "use semiImplicit or explicit");
+  return momentum == "semiImplicit";
+}
+
+exchange::VoidFraction readVoidFraction(const dictionary& properties) {
+  const word method(properties.getOrDefault<word>("voidFraction", "diffusion"));
+  try {
+    return exchange::voidFractionOf(method);
+  } catch (const std::invalid_argument& problem) {
+    throw inputError(properties.name() + ": " + problem.what());
+  }
+}
+
+/// Bounding box of the mesh, and the directions in which plane periodic patches repeat it.
+link::Extents extentsOf(const fvMesh& mesh) {
+  link::Extents extents;
+  const boundBox box(mesh.points(), true);
+  for (direction k = 0; k < 3; ++k) {
+    extents.low[k] = box.min()[k];
+    extents.high[k] = box.max()[k];
+  }
+  vector separated(Zero);
+  for (const polyPatch& patch : mesh.boundaryMesh())
+    if (isA<cyclicPolyPatch>(patch) || isA<processorCyclicPolyPatch>(patch))
+      for (const vector& area : patch.faceAreas())
+        separated = max(separated, cmptMag(area) / mag(area));
+  reduce(separated, maxOp<vector>());
+  for (direction k = 0; k < 3; ++k)
+    extents.periodic[k] = separated[k] > 0.5;
+  return extents;
+}
+
+} // namespace
+
+coupledRun::coupledRun(fvMesh& mesh, bool verbose)
+    : mesh_(mesh), time_(const_cast<Time&>(mesh.time())), properties_(propertiesFile(mesh.time())), verbose_(verbose),
+      semiImplicit_(readMomentum(properties_)), method_(readVoidFraction(properties_)) {}
+
+bool coupledRun::wanted(const Time& time) {
+  return isFile(time.globalPath() / time.constant() / "couplingProperties");
+}
+
+void coupledRun::run() {
+  const word link(properties_.getOrDefault<word>("link", "solver"));
+  if (link != "solver")
+    throw inputError(properties_, "link", link, "use solver");
+  const fileName script(properties_.get<fileName>("demScript"));
+  // The script's own paths are relative to the case.
+  if (!chDir(time_.globalPath()))
+    throw inputError("cannot enter the case folder " + time_.globalPath());
+  if (!isFile(script))
+    throw inputError(properties_, "demScript", script, "give a LIGGGHTS input script in the case folder");
+  const runningMpi mpi;
+  link::hosting_solver() = this;
+  run_dem_script(script, properties_.getOrDefault<fileName>("demLog", "log.liggghts"));
+  link::hosting_solver() = nullptr;
+  if (!flow_)
+    throw inputError(properties_, "demScript", script, "it never ran a fix fluid/couple with link solver: add one");
+  time_.writeNow();
+}
+
+link::FluidTerms coupledRun::agree(const link::DemTerms& dem) {
+  if (!flow_) {
+    // Particles that receive V div tau leave the fluid its own share of it.
+    flow_ = std::make_unique<averagedFlow>(mesh_, averagedFlow::particles::coupled,
+                                           dem.needed & fluid::kStressDivergence ? averagedFlow::stressShare::fraction
+                                                                                 : averagedFlow::stressShare::full);
+  }
+  link::FluidTerms terms;
+  terms.time_step = time_.deltaTValue();
+  terms.domain = extentsOf(mesh_);
+  terms.offered = kOffered;
+  terms.fluid_density = flow_->rho();
+  const std::string text = link::disagreement(dem, terms);
+  if (!text.empty())
+    throw link::Refusal(text);
+  dem_ = dem;
+  return terms;
+}
+
+void coupledRun::makeExchange(const link::Meeting& meeting) {
+  exchange::ExchangeSettings settings;
+  settings.method = method_;
+  const double diameter =
+      meeting.totals.particles
+          ? std::cbrt(6.0 / constant::mathematical::pi * meeting.totals.volume / meeting.totals.particles)
+          : 0.0;
+  const double diameters = method_ == exchange::VoidFraction::gaussian ? kGaussianDiameters : kDiffusionDiameters;
+  settings.length = properties_.getOrDefault<scalar>("length", diameters * diameter);
+  if (!(settings.length > 0) &&
+      (method_ == exchange::VoidFraction::diffusion || method_ == exchange::VoidFraction::gaussian))
+    throw inputError(properties_, "length", settings.length,
+                     "give the length of spreading in metres (three particle diameters), as the scene starts empty");
+  settings.mostSolid = properties_.getOrDefault<scalar>("mostSolid", settings.mostSolid);
+  settings.fractionFloor = properties_.getOrDefault<scalar>("fractionFloor", settings.fractionFloor);
+  settings.tolerance = properties_.getOrDefault<scalar>("tolerance", settings.tolerance);
+  try {
+    exchange_ = std::make_unique<exchange::particleExchange>(mesh_, settings);
+  } catch (const std::invalid_argument& problem) {
+    throw inputError(properties_.name() + ": " + problem.what());
+  }
+}
+
+// The fluid alone, with long steps, until it flows: the particles then start in a developed flow.
+void coupledRun::runIn() {
+  const dictionary* dict = properties_.findDict("runIn");
+  if (!dict || time_.value() > SMALL)
+    return;
+  const label steps = dict->get<label>("steps");
+  const scalar step = dict->get<scalar>("deltaT");
+  if (steps < 0 || !(step > 0))
+    throw inputError(*dict, "deltaT", step, "give a positive time step, and steps from 0 on");
+  const scalar start = time_.value();
+  const label index = time_.timeIndex();
+  const scalar usual = time_.deltaTValue();
+  time_.setDeltaT(step, false);
+  const quiet silence(verbose_);
+  for (label i = 0; i < steps; ++i) {
+    ++time_;
+    flow_->advance();
+  }
+  time_.setDeltaT(usual, false);
+  time_.setTime(start, index);
+  messageStream::level = std::max(messageStream::level, 1);
+  Info << "run-in of the fluid: " << steps << " steps of " << step << " s, dp/dz " << flow_->drivingPressureGradient()
+       << " Pa/m" << endl;
+}
+
+void coupledRun::meet(const link::Meeting& meeting, const link::ParticleArrays& particles,
+                      const fluid::FluidSamples& samples) {
+  const bool first = !exchange_;
+  if (first) {
+    makeExchange(meeting);
+    runIn();
+    report_ = std::make_unique<couplingReport>(mesh_, dem_, properties_.getOrDefault<label>("report", kReportEvery));
+    printCounters(meeting, samples);
+  }
+  stopwatch watch;
+  PartSeconds seconds;
+  seconds.dem = meeting.dem_seconds;
+  seconds.link = meeting.pack_seconds;
+  if (meeting.elapsed > 0)
+    ++time_;
+
+  scalarField solid, drag;
+  vectorField force;
+  exchange_->deposit(particles, meeting.elapsed, solid, &force, semiImplicit_ ? &drag : nullptr);
+  flow_->alpha().primitiveFieldRef() = 1.0 - solid;
+  flow_->alpha().correctBoundaryConditions();
+  flow_->particleForce().primitiveFieldRef() = force / flow_->rho();
+  flow_->particleForce().correctBoundaryConditions();
+  if (semiImplicit_) {
+    flow_->exchange().primitiveFieldRef() = drag / flow_->rho();
+    flow_->exchange().correctBoundaryConditions();
+  }
+  if (first && time_.value() <= SMALL)
+    flow_->resetFractionHistory();
+  seconds.exchange = watch.lap();
+
+  if (meeting.elapsed > 0) {
+    const quiet silence(verbose_);
+    flow_->advance();
+  }
+  seconds.fluid = watch.lap();
+
+  exchange::FlowFields fields;
+  fields.velocity = &flow_->U();
+  fields.fraction = &flow_->alpha();
+  tmp<volVectorField> pressure, stress;
+  if (samples.pressure_gradient) {
+    pressure = flow_->pressureGradient();
+    fields.pressureGradient = &pressure().primitiveField();
+  }
+  if (samples.stress_divergence) {
+    stress = flow_->stressDivergence();
+    fields.stressDivergence = &stress().primitiveField();
+  }
+  exchange_->sample(fields, particles, samples);
+  seconds.exchange += watch.lap();
+  report_->add(*flow_, *exchange_, meeting, seconds);
+  if (meeting.elapsed > 0 && time_.writeTime())
+    time_.write();
+}
+
+void coupledRun::run_ended() {
+  if (report_)
+    report_->finish();
+}
+
+void coupledRun::printCounters(const link::Meeting& meeting, const fluid::FluidSamples& samples) const {
+  const int toDem = (samples.velocity ? 3 : 0) + (samples.fraction ? 1 : 0) + (samples.pressure_gradient ? 3 : 0) +
+                    (samples.stress_divergence ? 3 : 0) + (samples.vorticity ? 3 : 0);
+  const int toFluid = 3 + 1 + 3 + 1 + (dem_.extents ? link::kExtentDoubles : 0);
+  Info << "coupling: " << label(meeting.totals.particles) << " particles on "
+       << returnReduce(mesh_.nCells(), sumOp<label>()) << " cells; the fluid is asked for"
+       << (samples.velocity ? " velocity" : "") << (samples.fraction ? " fraction" : "")
+       << (samples.pressure_gradient ? " pressureGradient" : "")
+       << (samples.stress_divergence ? " stressDivergence" : "") << (samples.vorticity ? " vorticity" : "") << "; "
+       << label(toFluid * sizeof(double)) << " bytes per particle to the fluid, " << label(toDem * sizeof(double))
+       << " back; spreading length " << exchange_->settings().length << " m" << endl;
+}
+
+} // namespace eccentra

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Formats the balances and costs of a coupled run.
+#include "couplingReport.H"
+
+#include "OSspecific.H"
+#include "Time.H"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace eccentra {
+
+using namespace Foam;
+
+namespace {
+
+/// Cells with more solid than this belong to the bed.
+constexpr double kBedSolid = 0.3;
+/// Gravity across the axis below this part of the whole counts as none: the hole is vertical.
+constexpr double kVertical = 1e-6;
+
+double difference(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return std::sqrt(std::pow(a[0] - b[0], 2) + std::pow(a[1] - b[1], 2) + std::pow(a[2] - b[2], 2));
+}
+
+double relative(double error, double scale) {
+  return scale > 0 ? error / scale : 0.0;
+}
+
+vector vectorOf(const double* v) {
+  return vector(v[0], v[1], v[2]);
+}
+
+} // namespace
+
+couplingReport::couplingReport(const fvMesh& mesh, const link::DemTerms& dem, int every)
+    : mesh_(mesh), every_(every), started_(std::chrono::steady_clock::now()) {
+  const vector gravity(vectorOf(dem.gravity));
+  const vector across(gravity - axis_ * (axis_ & gravity));
+  if (mag(across) > kVertical * mag(gravity))
+    down_ = across / mag(across);
+  scalar lowest = -GREAT;
+  for (const point& p : mesh.points())
+    lowest = max(lowest, p & down_);
+  lowest_ = returnReduce(lowest, maxOp<scalar>());
+  const boundBox box(mesh.points(), true);
+  length_ = box.span() & axis_;
+  if (Pstream::master()) {
+    const fileName folder(mesh.time().globalPath() / "postProcessing" / "eccentra");
+    mkDir(folder);
+    csv_ = std::make_unique<std::ofstream>(folder / "coupling.csv");
+    *csv_ << "time,particles,mean_velocity,pressure_gradient,solid_concentration,solids_flux,com_x,com_y,com_z,com_"
+             "height,"
+             "bed_height,bed_area,fastest_particle,least_fraction,courant,continuity_error,volume_error,impulse_error,"
+             "pressure_error,dem_seconds,fluid_seconds,exchange_seconds,link_seconds\n";
+    csv_->precision(10);
+  }
+}
+
+couplingReport::Bed couplingReport::bed(const volScalarField& alpha) const {
+  Bed bed;
+  scalar highest = lowest_;
+  scalar volume = 0;
+  forAll(alpha, celli) {
+    if (1.0 - alpha[celli] < kBedSolid)
+      continue;
+    highest = min(highest, mesh_.C()[celli] & down_);
+    volume += mesh_.V()[celli];
+  }
+  bed.height = lowest_ - returnReduce(highest, minOp<scalar>());
+  bed.area = returnReduce(volume, sumOp<scalar>()) / length_;
+  bed.leastFraction = gMin(alpha.primitiveField());
+  return bed;
+}
+
+void couplingReport::add(averagedFlow& flow, const exchange::particleExchange& exchange, const link::Meeting& meeting,
+                         const PartSeconds& seconds) {
+  total_.dem += seconds.dem;
+  total_.fluid += seconds.fluid;
+  total_.exchange += seconds.exchange;
+  total_.link += seconds.link;
+  const bool last = meeting.steps_total > 0 && meeting.steps_done >= meeting.steps_total;
+  if (meetings_++ % every_ == 0 || last)
+    write(flow, exchange, meeting);
+}
+
+void couplingReport::write(averagedFlow& flow, const exchange::particleExchange& exchange,
+                           const link::Meeting& meeting) {
+  const exchange::ExchangeBalance& balance = exchange.balance();
+  const link::DemTotals& totals = meeting.totals;
+  const Bed bed = this->bed(flow.alpha());
+  const double solid = totals.volume > 0 ? totals.volume : 1.0;
+  const vector centre(vectorOf(totals.volume_position) / solid);
+  const double meanVelocity = flow.superficialVelocity() & axis_;
+  const double courant = flow.CourantNo();
+  const double continuity = flow.continuityError();
+  const double concentration = totals.volume / gSum(mesh_.V());
+  const double flux = (vectorOf(totals.volume_velocity) & axis_) / length_;
+  const double volumeError = relative(std::abs(balance.meshVolume - balance.particleVolume), balance.particleVolume);
+  const double impulseError = relative(difference(balance.meshImpulse, balance.particleImpulse), balance.impulseScale);
+  const double pressureError =
+      relative(difference(balance.meshPressureForce, balance.particlePressureForce), balance.pressureForceScale);
+  std::array<double, 4> parts = {total_.dem, total_.fluid, total_.exchange, total_.link};
+  for (double& part : parts)
+    part = returnReduce(part, sumOp<scalar>()) / Pstream::nProcs();
+  if (!balance.fits)
+    Info << "warning: more solid than mostSolid allows in some cells: take smaller particles per cell, or voidFraction "
+            "diffusion"
+         << endl;
+  if (!Pstream::master())
+    return;
+  *csv_ << mesh_.time().value() << ',' << totals.particles << ',' << meanVelocity << ','
+        << flow.drivingPressureGradient() << ',' << concentration << ',' << flux << ',' << centre.x() << ','
+        << centre.y() << ',' << centre.z() << ',' << (totals.particles ? lowest_ - (centre & down_) : 0.0) << ','
+        << bed.height << ',' << bed.area << ',' << totals.fastest << ',' << bed.leastFraction << ',' << courant << ','
+        << continuity << ',' << volumeError << ',' << impulseError << ',' << pressureError;
+  for (const double part : parts)
+    *csv_ << ',' << part;
+  *csv_ << std::endl;
+
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  const double done = meeting.steps_total > 0 ? double(meeting.steps_done) / double(meeting.steps_total) : 0.0;
+  std::printf("t %.4g s  %3.0f %%  left %.0f s | %lld particles, U %.4g m/s, dp/dz %.4g Pa/m, flux %.3g m3/s, fastest "
+              "%.3g m/s, alpha >= %.3f | errors: volume %.1e impulse %.1e pressure %.1e continuity %.1e\n",
+              mesh_.time().value(), 100 * done, done > 0 ? elapsed * (1 - done) / done : 0.0,
+              static_cast<long long>(totals.particles), meanVelocity, flow.drivingPressureGradient(), flux,
+              totals.fastest, bed.leastFraction, volumeError, impulseError, pressureError, continuity);
+  std::fflush(stdout);
+}
+
+void couplingReport::finish() const {
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  const auto mean = [](double part) { return returnReduce(part, sumOp<scalar>()) / Pstream::nProcs(); };
+  const double dem = mean(total_.dem), fluid = mean(total_.fluid), exchange = mean(total_.exchange),
+               link = mean(total_.link);
+  if (!Pstream::master())
+    return;
+  const auto line = [elapsed](const char* name, double seconds) {
+    std::printf("  %-10s %9.2f s %5.1f %%\n", name, seconds, 100 * seconds / elapsed);
+  };
+  std::printf("cost by part, mean over %d rank(s)\n", Pstream::nProcs());
+  line("DEM", dem);
+  line("fluid", fluid);
+  line("exchange", exchange);
+  line("link", link);
+  line("rest", elapsed - dem - fluid - exchange - link);
+  std::fflush(stdout);
+}
+
+} // namespace eccentra
