@@ -14,8 +14,10 @@
 namespace eccentra::shape {
 namespace {
 
-constexpr int direction_count = 50000;      ///< mean good to 1e-4, spacing of directions 0.016 rad
-constexpr int cluster_pair_count = 20000;   ///< mean good to 2e-3
+constexpr int direction_count = 50000; ///< mean good to 1e-4, spacing of directions 0.016 rad
+/// Pairs of clusters: mean good to 2e-3 with the most, 1e-2 with the fewest; in between, as many as the number of
+/// visits to pairs of sub-spheres allows.
+constexpr double fewest_cluster_pairs = 2000, most_cluster_pairs = 20000, most_cluster_visits = 1e8;
 constexpr int surface_point_count = 400000; ///< over all spheres, before the covered ones are dropped
 /// Search for an extreme: starts, the first step [rad], and where it ends [rad].
 constexpr int search_starts = 24;
@@ -147,6 +149,7 @@ EccentricityDistribution eccentricity_surface(const ClusterShape& shape) {
   for (const int k : shape.surface_spheres())
     total += spheres[k].radius * spheres[k].radius;
   std::vector<double> samples;
+  double least = std::numeric_limits<double>::max();
   for (const int k : shape.surface_spheres()) {
     const Sphere& self = spheres[k];
     std::vector<Sphere> neighbours; // inner spheres, too, cover what faces them
@@ -156,41 +159,61 @@ EccentricityDistribution eccentricity_surface(const ClusterShape& shape) {
         neighbours.push_back(spheres[j]);
     }
     const int count = static_cast<int>(std::lround(surface_point_count * self.radius * self.radius / total));
-    for (int p = 0; p < count; ++p) {
-      const Eigen::Vector3d n = fibonacci_direction(p, count), point = self.centre + self.radius * n;
-      const bool free = std::none_of(neighbours.begin(), neighbours.end(), [&](const Sphere& other) {
+    const auto is_free = [&](const Eigen::Vector3d& n) {
+      const Eigen::Vector3d point = self.centre + self.radius * n;
+      return std::none_of(neighbours.begin(), neighbours.end(), [&](const Sphere& other) {
         return (point - other.centre).squaredNorm() < other.radius * other.radius;
       });
-      if (free)
+    };
+    for (int p = 0; p < count; ++p) {
+      const Eigen::Vector3d n = fibonacci_direction(p, count);
+      if (is_free(n))
         samples.push_back(self.centre.cross(n).norm() / unit);
     }
+    // Straight away from the centre of mass, or towards it, the normal passes through it: the least value there is.
+    const Eigen::Vector3d away = self.centre.norm() > 0 ? self.centre.normalized() : Eigen::Vector3d::UnitZ();
+    if (is_free(away) || is_free(-away))
+      least = 0;
   }
   if (samples.empty())
     throw std::invalid_argument("shape '" + shape.name() + "' has no surface that can be sampled");
-  const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
-  const double least = *low, most = *high;
+  const double most = *std::max_element(samples.begin(), samples.end());
   return {std::move(samples), least, most};
 }
 
 EccentricityDistribution eccentricity_cluster(const ClusterShape& shape, const ClusterShape& other) {
   const Touchable a(shape), b(other);
   const double unit = shape.equivalent_radius();
-  std::vector<double> samples(cluster_pair_count);
-  for (int s = 0; s < cluster_pair_count; ++s) {
+  const int pairs = static_cast<int>(std::clamp<double>(
+      most_cluster_visits / (static_cast<double>(a.radius.size()) * static_cast<double>(b.radius.size())),
+      fewest_cluster_pairs, most_cluster_pairs));
+  const Eigen::ArrayXd b_squared = b.centre.colwise().squaredNorm().transpose().array();
+  const double never = -std::numeric_limits<double>::max();
+  std::vector<double> samples(pairs);
+  Eigen::ArrayXd along, rest, distance;
+  for (int s = 0; s < pairs; ++s) {
     const DirectionAndRotation way = even_direction_and_rotation(s);
     const Eigen::Matrix3Xd turned = way.rotation.toRotationMatrix() * b.centre;
-    double farthest = -std::numeric_limits<double>::max();
-    for (int i = 0; i < a.radius.size(); ++i)
-      for (int j = 0; j < b.radius.size(); ++j) {
-        // Centres meet at `reach` when the other cluster's centre of mass is at distance * direction.
-        const Eigen::Vector3d offset = a.centre.col(i) - turned.col(j);
-        const double along = offset.dot(way.direction), reach = a.radius[i] + b.radius[j];
-        const double rest = reach * reach - offset.squaredNorm() + along * along;
-        if (rest <= 0 || along + std::sqrt(rest) <= farthest)
-          continue;
-        farthest = along + std::sqrt(rest);
-        samples[s] = a.centre.col(i).cross(farthest * way.direction - offset).norm() / (reach * unit);
-      }
+    const Eigen::ArrayXd b_along = (turned.transpose() * way.direction).array();
+    double farthest = never;
+    for (int i = 0; i < a.radius.size(); ++i) {
+      // Centres meet at `reach` when the other cluster's centre of mass is at distance * direction.
+      const Eigen::Vector3d own = a.centre.col(i);
+      along = own.dot(way.direction) - b_along;
+      rest = (a.radius[i] + b.radius).square() - own.squaredNorm() - b_squared +
+             2 * (turned.transpose() * own).array() + along.square();
+      distance = (rest > 0).select(along + rest.max(0).sqrt(), never);
+      int j = -1;
+      for (int k = 0; k < distance.size(); ++k)
+        if (distance[k] > farthest) {
+          farthest = distance[k];
+          j = k;
+        }
+      if (j < 0)
+        continue;
+      const Eigen::Vector3d between = farthest * way.direction + turned.col(j) - own;
+      samples[s] = own.cross(between).norm() / ((a.radius[i] + b.radius[j]) * unit);
+    }
   }
   const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
   const double least = *low, most = *high;

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shape words as users type them, in LIGGGHTS scripts and on the command line.
+#include "shape/shape_words.h"
+
 #include "shape/builtin_shapes.h"
 #include "shape/clump_file.h"
 #include "shape/cluster_shape.h"
@@ -12,7 +14,6 @@
 #include <stdexcept>
 
 namespace eccentra::shape {
-namespace {
 
 const std::string& word_at(const std::vector<std::string>& words, std::size_t index, const std::string& need) {
   if (index >= words.size())
@@ -37,6 +38,21 @@ double positive_number(const std::string& word, const std::string& what) {
   return value;
 }
 
+void resize(std::vector<Sphere>& spheres, MassProperties& properties, double scale) {
+  for (Sphere& s : spheres) {
+    s.centre *= scale;
+    s.radius *= scale;
+  }
+  properties.volume *= scale * scale * scale;
+  properties.surface *= scale * scale;
+  properties.centre *= scale;
+  properties.inertia_per_mass *= scale * scale;
+}
+
+namespace {
+
+StlMaker stl_maker = nullptr;
+
 /// Factor that gives volume `volume` the equivalent diameter asked for.
 double scale_to_diameter(double volume, double diameter) {
   return diameter / std::cbrt(6 * volume / M_PI);
@@ -45,20 +61,15 @@ double scale_to_diameter(double volume, double diameter) {
 ClusterShape from_spheres(const std::string& name, std::vector<Sphere> spheres, double scale, double diameter) {
   require_connected(spheres);
   MassProperties p = measure_union(spheres).properties;
-  if (diameter > 0)
-    scale = scale_to_diameter(p.volume, diameter);
-  for (Sphere& s : spheres) {
-    s.centre *= scale;
-    s.radius *= scale;
-  }
-  p.volume *= scale * scale * scale;
-  p.surface *= scale * scale;
-  p.centre *= scale;
-  p.inertia_per_mass *= scale * scale;
+  resize(spheres, p, diameter > 0 ? scale_to_diameter(p.volume, diameter) : scale);
   return ClusterShape(name, std::move(spheres), p);
 }
 
 } // namespace
+
+void install_stl_maker(StlMaker maker) {
+  stl_maker = maker;
+}
 
 ClusterShape make_shape(const std::vector<std::string>& words, std::size_t first, std::size_t& used, double diameter) {
   if (!std::isfinite(diameter))
@@ -74,9 +85,12 @@ ClusterShape make_shape(const std::vector<std::string>& words, std::size_t first
     }
     return from_spheres(path, read_clump(path), scale, diameter);
   }
-  if (family == "stl")
+  if (family == "stl") {
+    if (stl_maker)
+      return stl_maker(words, first, used, diameter);
     throw std::invalid_argument("shape stl is not read here: make a sphere list of it with `clusterShape stl NAME.stl "
                                 "--spheres N -o NAME.clump` and write `shape file NAME.clump`");
+  }
   const long count = family == "sphere" || family == "cube" || family == "disk"
                          ? whole_number(word_at(words, first + 1, "the number of spheres after '" + family + "'"),
                                         "number of spheres of shape " + family)
