@@ -218,7 +218,7 @@ void PairGranCluster::share_damping() {
       continue;
     SharedStiffness all;
     for (int m = p.first; m < p.last; ++m)
-      all.add(c.contact_radius[m], c.normal[0][m], c.normal[1][m], c.normal[2][m]);
+      all.add(c.contact_radius[m], c.overlap[m], c.normal[0][m], c.normal[1][m], c.normal[2][m]);
     for (int m = p.first; m < p.last; ++m)
       c.share[m] = all.damping_share(c.contact_radius[m], c.normal[0][m], c.normal[1][m], c.normal[2][m]);
   }

@@ -3,40 +3,49 @@
 // Damping of several simultaneous contacts between the same two bodies (decision D2); pure.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace eccentra::cluster {
 
-/// Springs in parallel add, but dampers tuned to each spring alone do not: the restitution of a body is set by
-/// gamma = 2 sqrt(5/6) beta sqrt(S m*) with S the stiffness of the whole connection, while N equal contacts with
-/// gamma_k(S_k) each add up to sqrt(N) times that (stock: e_eff = e^sqrt(N)). So `contacts shared` multiplies the
-/// damping of contact k by sqrt(S_k / S) with S = sum_j S_j (n_j . n_k)^2, the stiffness of all contacts of this pair
-/// of bodies along the normal of contact k. One contact keeps its damping; N contacts with one normal share that of
-/// their sum; contacts at right angles do not know of each other. It varies smoothly as contacts come and go (S_k -> 0
-/// with the overlap), and as only dissipation is scaled, the elastic forces stay those of the potential sum: sharing
-/// cannot create energy. Make one per pair of bodies (or body and wall) and step, add all contacts, then ask.
+/// Springs in parallel add, but dampers tuned to each spring alone do not: N equal contacts with gamma_k(S_k) each add
+/// up to sqrt(N) times what returns e (stock: e_eff = e^sqrt(N)). What does return e, for any elastic force F with work
+/// W, is gamma = 2 beta sqrt(m*) F / sqrt(2 W): in the variable sqrt(2 W) the impact is then a damped linear
+/// oscillator. With Hertz contacts, F = 2/3 sum S d and W = 4/15 sum S d^2 (S = dF/dd of each, d its overlap), this is
+/// stock's 2 sqrt(5/6) beta sqrt(S' m*) with S' = (sum S d)^2 / sum S d^2, N S for N equal contacts. So `contacts
+/// shared` hands that damping out in proportion to stiffness: contact k keeps the fraction sqrt(S_k S') / sum S of its
+/// own. Sums run over all contacts of this pair of bodies, weighted by (n_j . n_k)^2: one contact keeps its damping,
+/// contacts with one normal share, contacts at right angles do not know of each other. It varies smoothly as contacts
+/// come and go, and as only dissipation is scaled, the elastic forces stay those of the potential sum: sharing cannot
+/// create energy. Make one per pair of bodies (or body and wall) and step, add all contacts, then ask.
 class SharedStiffness {
  public:
-  /// Adds a contact: stiffness S [any unit, the same for all; sqrt(R* overlap) will do within one pair of materials]
-  /// and unit normal n (the sign does not matter).
-  void add(double stiffness, double nx, double ny, double nz) {
-    xx_ += stiffness * nx * nx;
-    yy_ += stiffness * ny * ny;
-    zz_ += stiffness * nz * nz;
-    xy_ += stiffness * nx * ny;
-    xz_ += stiffness * nx * nz;
-    yz_ += stiffness * ny * nz;
+  /// Adds a contact: stiffness S [any unit, the same for all; sqrt(R* overlap) will do within one pair of materials],
+  /// overlap [m] and unit normal n (the sign does not matter).
+  void add(double stiffness, double overlap, double nx, double ny, double nz) {
+    const double products[6] = {nx * nx, ny * ny, nz * nz, nx * ny, nx * nz, ny * nz};
+    for (int k = 0; k < 6; ++k) {
+      stiffness_[k] += stiffness * products[k];
+      force_[k] += stiffness * overlap * products[k];
+      work_[k] += stiffness * overlap * overlap * products[k];
+    }
   }
 
   /// Factor of the normal and tangential damping of one of the contacts that were added, in (0, 1].
   double damping_share(double stiffness, double nx, double ny, double nz) const {
-    const double all =
-        xx_ * nx * nx + yy_ * ny * ny + zz_ * nz * nz + 2 * (xy_ * nx * ny + xz_ * nx * nz + yz_ * ny * nz);
-    return all > stiffness ? std::sqrt(stiffness / all) : 1;
+    const double products[6] = {nx * nx, ny * ny, nz * nz, 2 * nx * ny, 2 * nx * nz, 2 * ny * nz};
+    double s = 0, f = 0, w = 0;
+    for (int k = 0; k < 6; ++k) {
+      s += stiffness_[k] * products[k];
+      f += force_[k] * products[k];
+      w += work_[k] * products[k];
+    }
+    return s > stiffness && w > 0 ? std::min(1., f / s * std::sqrt(stiffness / w)) : 1;
   }
 
  private:
-  double xx_ = 0, yy_ = 0, zz_ = 0, xy_ = 0, xz_ = 0, yz_ = 0;
+  // Sums of n n^T weighted by S, S d and S d^2: xx, yy, zz, xy, xz, yz.
+  double stiffness_[6] = {}, force_[6] = {}, work_[6] = {};
 };
 
 } // namespace eccentra::cluster
