@@ -4,6 +4,7 @@
 #include "cluster/wall_gran_cluster.h"
 
 #include "cluster/bodies.h"
+#include "cluster/impact_mass.h"
 #include "cluster/shared_contacts.h"
 #include "cluster/wall_gaps.h"
 #include "host/style_registry.h"
@@ -211,18 +212,37 @@ void FixWallGranCluster::collect(int i) {
     next_history_.push_back({touches_[m].key, old_shear(i, touches_[m])});
   }
   history_[i].swap(next_history_);
-  if (!words_.shared || touches_.size() == first + 1)
+  if (words_.shared)
+    share_damping(i, first);
+}
+
+void FixWallGranCluster::share_damping(int i, std::size_t first) {
+  const bool plain = is_plain_sphere(i);
+  if (plain && touches_.size() == first + 1)
     return;
   // Within one fix the particle's material is one; walls of several materials weigh by their modulus.
   const auto stiffness = [&](const WallTouch& touch) {
     return youngs_[atom->type[i]][touch.wall_type] * std::sqrt(touch.radius * touch.overlap);
   };
   SharedStiffness all;
-  for (std::size_t m = first; m < touches_.size(); ++m)
-    all.add(stiffness(touches_[m]), touches_[m].normal.x(), touches_[m].normal.y(), touches_[m].normal.z());
-  for (std::size_t m = first; m < touches_.size(); ++m)
-    touches_[m].share = all.damping_share(stiffness(touches_[m]), touches_[m].normal.x(), touches_[m].normal.y(),
-                                          touches_[m].normal.z());
+  ImpactMass impact;
+  for (std::size_t m = first; m < touches_.size(); ++m) {
+    const Eigen::Vector3d& n = touches_[m].normal;
+    all.add(stiffness(touches_[m]), touches_[m].overlap, n.x(), n.y(), n.z());
+    impact.add(stiffness(touches_[m]), n, touches_[m].lever);
+  }
+  Eigen::Matrix3d inverse_inertia = Eigen::Matrix3d::Zero(); // per unit mass; spheres are always hit in the centre
+  if (!plain) {
+    const Eigen::Matrix3d rotation = row_major(bodies_->rotation(i));
+    inverse_inertia = rotation *
+                      bodies_->shapes()[bodies_->shape_id(i)].inertia_per_mass().cwiseInverse().asDiagonal() *
+                      rotation.transpose();
+  }
+  for (std::size_t m = first; m < touches_.size(); ++m) {
+    const Eigen::Vector3d& n = touches_[m].normal;
+    touches_[m].share =
+        all.damping_share(stiffness(touches_[m]), n.x(), n.y(), n.z()) * std::sqrt(impact.ratio(n, inverse_inertia));
+  }
 }
 
 void FixWallGranCluster::collect_primitive(int i) {
@@ -339,6 +359,18 @@ void FixWallGranCluster::scatter(int m, const WallTouch& touch) {
     meshes_->report(touch, force);
 }
 
+void FixWallGranCluster::evaluate(int n, bool advance) {
+  const auto forces = [&](auto contact_forces_of_choice) { contact_forces_of_choice(*block_, n, update->dt, advance); };
+  if (words_.damping == DampingLaw::stock && words_.tangential_damping)
+    forces(contact_forces<DampingLaw::stock, true>);
+  else if (words_.damping == DampingLaw::stock)
+    forces(contact_forces<DampingLaw::stock, false>);
+  else if (words_.tangential_damping)
+    forces(contact_forces<DampingLaw::paper, true>);
+  else
+    forces(contact_forces<DampingLaw::paper, false>);
+}
+
 void FixWallGranCluster::add_forces() {
   const bool advance = !update->setupflag;
   const int all = static_cast<int>(touches_.size());
@@ -346,7 +378,7 @@ void FixWallGranCluster::add_forces() {
     const int n = std::min(all - first, static_cast<int>(ContactBlock::capacity));
     for (int m = 0; m < n; ++m)
       fill(m, touches_[first + m]);
-    contact_forces<DampingLaw::stock>(*block_, n, update->dt, advance);
+    evaluate(n, advance);
     for (int m = 0; m < n; ++m)
       scatter(m, touches_[first + m]);
   }

@@ -78,8 +78,11 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   void collect_mesh(int i);
   /// Tangential displacement with which a contact of this atom goes on: its own, or that of a coplanar triangle before.
   Eigen::Vector3d old_shear(int i, const WallTouch& touch) const;
+  /// Scales the damping of the atom's contacts, touches_[first] and after, to what all of them are together.
+  void share_damping(int i, std::size_t first);
   /// Forces of all collected contacts, a block at a time.
   void add_forces();
+  void evaluate(int n, bool advance);
   void fill(int m, const WallTouch& touch);
   void scatter(int m, const WallTouch& touch);
   bool is_plain_sphere(int i) const;

@@ -41,6 +41,13 @@ class Reader {
       throw std::invalid_argument(name + " must be a finite number, not '" + word + "'");
     return value;
   }
+  /// True for `yes`, false for `no`, whichever word follows `name`.
+  bool choose(const std::string& name, const std::string& yes, const std::string& no) {
+    const std::string& word = next(yes + " or " + no + " after " + name);
+    if (word != yes && word != no)
+      throw std::invalid_argument(name + " must be " + yes + " or " + no + ", not '" + word + "'");
+    return word == yes;
+  }
   int count(const std::string& name) {
     const double value = number(name);
     if (value != std::floor(value) || value < 1.0)
@@ -155,17 +162,19 @@ WallWords read_wall_words(const std::vector<std::string>& all) {
     if (word == "rolling_friction") {
       words.rolling = read_rolling(reader, all);
     } else if (word == "contacts") {
-      const std::string& value = reader.next("shared or parallel after contacts");
-      if (value != "shared" && value != "parallel")
-        throw std::invalid_argument("contacts must be shared or parallel, not '" + value + "'");
-      words.shared = value == "shared";
+      words.shared = reader.choose(word, "shared", "parallel");
+    } else if (word == "damping") {
+      words.damping = reader.choose(word, "stock", "paper") ? DampingLaw::stock : DampingLaw::paper;
+    } else if (word == "tangential_damping") {
+      words.tangential_damping = reader.choose(word, "on", "off");
     } else if (word == "primitive") {
       read_primitive(reader, words);
     } else if (word == "mesh") {
       read_meshes(reader, words);
     } else {
-      throw std::invalid_argument("unknown word '" + word +
-                                  "': rolling_friction, contacts, primitive and mesh are there");
+      throw std::invalid_argument(
+          "unknown word '" + word +
+          "': rolling_friction, contacts, damping, tangential_damping, primitive and mesh are there");
     }
   }
   if (!words.surface && words.meshes.empty())

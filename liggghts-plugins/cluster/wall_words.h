@@ -3,6 +3,7 @@
 // What a user types after `fix ID group wall/gran/cluster`, as data.
 #pragma once
 
+#include "cluster/contact_law.h"
 #include "cluster/wall_rolling.h"
 #include "cluster/wall_surface.h"
 
@@ -14,7 +15,9 @@
 namespace eccentra::cluster {
 
 struct WallWords {
-  bool shared = false;                  ///< contacts shared (else parallel)
+  bool shared = true; ///< contacts shared (else parallel)
+  DampingLaw damping = DampingLaw::stock;
+  bool tangential_damping = true;
   std::unique_ptr<WallRolling> rolling; ///< null: rolling_friction off
   std::optional<WallSurface> surface;   ///< primitive wall
   int type = 0;                         ///< material of a primitive wall
