@@ -21,11 +21,6 @@ class FixBodies;
 
 namespace eccentra::fluid {
 
-/// Volume of the sphere of this radius.
-inline double sphere_volume(double radius) {
-  return 4.0 / 3.0 * kPi * radius * radius * radius;
-}
-
 /// Size and shape of every local atom. A plain sphere is itself; a cluster is the union of its spheres, never its
 /// bounding sphere. A "kind" numbers all particles that share shape factors: atom types (from 1), then clusters'
 /// shapes.
