@@ -16,6 +16,8 @@
 #include "modify.h"
 #include "update.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -97,6 +99,7 @@ void FixFluidCouple::init() {
   if (!forces_)
     refuse("meets a fluid that nothing feels: add fix fluid/force before the run");
   forces_->announce_source(id);
+  bodies_ = cluster::FixBodies::find(lmp);
   if (domain->triclinic)
     refuse("needs a box with right angles: make the simulation box orthogonal");
   if (link_ == "solver") {
@@ -121,7 +124,7 @@ link::DemTerms FixFluidCouple::terms() const {
     terms.domain.periodic[k] = domain->periodicity[k] != 0;
   }
   terms.needed = forces_->needs();
-  terms.extents = !extent_.empty();
+  terms.extents = bodies_ != nullptr;
   terms.fluid_density = forces_->rho_f();
   for (int i = 0; i < modify->nfix; ++i)
     if (std::strcmp(modify->fix[i]->style, "gravity") == 0)
@@ -170,12 +173,35 @@ void FixFluidCouple::pack() {
   const int count = atom->nlocal;
   position_.resize(3 * std::size_t(count));
   volume_.resize(count);
+  extent_.resize(bodies_ ? link::kExtentDoubles * std::size_t(count) : 0);
   for (int i = 0; i < count; ++i) {
     double* x = position_.data() + 3 * std::size_t(i);
     std::copy_n(atom->x[i], 3, x);
     // Between neighbour rebuilds LIGGGHTS lets positions run out of a periodic box.
     domain->remap(x);
     volume_[i] = forces_->particle_volume(i);
+    if (bodies_)
+      pack_extent(i, extent_.data() + link::kExtentDoubles * std::size_t(i));
+  }
+}
+
+// Six points at +-e_k with a sixth of the volume each have the second moment M_kk = V |e_k|^2 / 3 about axis k.
+void FixFluidCouple::pack_extent(int i, double* extent) {
+  using Row = Eigen::Map<Eigen::Vector3d>;
+  const int shape = bodies_->shape_id(i);
+  if (shape < 0) {
+    // A ball's second moment is V R^2 / 5.
+    const double radius = 0.5 * forces_->equivalent_diameter(i);
+    Eigen::Map<Eigen::Matrix3d>(extent, 3, 3) = std::sqrt(3.0 / 5.0) * radius * Eigen::Matrix3d::Identity();
+    return;
+  }
+  const double* q = bodies_->quaternion(i);
+  const Eigen::Matrix3d axes = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+  const Eigen::Vector3d inertia = bodies_->shapes()[shape].inertia_per_mass();
+  for (int k = 0; k < 3; ++k) {
+    // Moments of inertia are sums of second moments: I_k = M_i + M_j.
+    const double moment = 0.5 * inertia.sum() - inertia[k];
+    Row(extent + 3 * k) = std::sqrt(3.0 * std::max(moment, 0.0)) * axes.col(k);
   }
 }
 
@@ -237,7 +263,7 @@ void FixFluidCouple::meet(double elapsed) {
   particles.volume = volume_.data();
   particles.impulse = reaction.impulse;
   particles.drag_coefficient = reaction.drag_coefficient;
-  if (!extent_.empty())
+  if (bodies_)
     particles.extent = reinterpret_cast<const double(*)[link::kExtentDoubles]>(extent_.data());
   particles.ticket = tickets_.data();
   pack_seconds_ = MPI_Wtime() - arrived;

@@ -3,6 +3,7 @@
 // Fix style fluid/couple: every N steps the particles meet the fluid, inside one LIGGGHTS run.
 #pragma once
 
+#include "cluster/bodies.h"
 #include "fluid/fix_fluid_force.h"
 #include "link/fluid_peer.h"
 
@@ -43,6 +44,7 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   link::DemTerms terms() const;
   void meet(double elapsed);
   void pack();
+  void pack_extent(int i, double* extent);
   link::DemTotals totals() const;
 
   std::string link_;
@@ -54,6 +56,7 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   link::FluidPeer* peer_ = nullptr;
   std::unique_ptr<link::FluidPeer> own_peer_;
   FixFluidForce* forces_ = nullptr;
+  cluster::FixBodies* bodies_ = nullptr; ///< null where all particles are spheres
 
   std::vector<link::Ticket> tickets_; ///< per atom; migrates
   std::vector<double> position_;      ///< packed rows of three
