@@ -31,6 +31,7 @@ template <class Stress, class Law> class DragEffect : public Effect {
       laws_.emplace_back(shapes.factors(kind));
   }
 
+  std::vector<Validity> validity() const override { return {{kReynolds, Law::kLowestRe, Law::kHighestRe}}; }
   void apply(const Kick& kick) override {
     double sum[3] = {0.0, 0.0, 0.0};
     for (int i = 0; i < kick.count; ++i) {

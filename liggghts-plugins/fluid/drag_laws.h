@@ -32,6 +32,7 @@ inline double voidage_factor(double fraction) {
 /// measured, C_D(alpha Re): hindered settling then follows Richardson & Zaki.
 template <class Single, bool VoidReynolds = false> struct Suspended {
   static constexpr bool kOriented = Single::kOriented;
+  static constexpr double kLowestRe = Single::kLowestRe, kHighestRe = Single::kHighestRe;
   Single law;
   explicit Suspended(const ShapeFactors& shape) : law(shape) {}
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "fluid/fluid_quantities.h"
+#include "fluid/numbers.h"
 #include "fluid/rheology.h"
 
 #include <memory>
@@ -60,6 +61,12 @@ struct Kick {
   }
 };
 
+/// Where a closure was measured: a dimensionless number of the particle and its range.
+struct Validity {
+  Number number;
+  double low, high;
+};
+
 class Effect {
  public:
   virtual ~Effect() = default;
@@ -71,6 +78,9 @@ class Effect {
   /// Prepares what depends on shapes only; called at set-up.
   virtual void prepare(const ShapeCatalogue&) {}
   virtual void apply(const Kick& kick) = 0;
+  /// True if it acts on spins (Kick::torque), false if on velocities (Kick::force).
+  virtual bool is_torque() const { return false; }
+  virtual std::vector<Validity> validity() const { return {}; }
 
   /// Sum over this rank's particles of the force (or torque) of the last kick, world frame.
   const double* total() const { return total_; }

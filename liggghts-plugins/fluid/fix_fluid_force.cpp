@@ -3,6 +3,7 @@
 // Implements fix fluid/force: time stepping and per-atom data around the effects.
 #include "fluid/fix_fluid_force.h"
 
+#include "fluid/sample_arrays.h"
 #include "host/style_registry.h"
 
 #include <mpi.h>
@@ -29,18 +30,6 @@ namespace {
 const host::RegisterFix<FixFluidForce>
     kRecord("fluid/force", "drag, lift, pressure, stress and buoyancy forces of a Herschel-Bulkley fluid on particles");
 
-struct SampleArray {
-  Quantity quantity;
-  const char* name;
-  int columns;
-};
-/// An array's id is its place here.
-constexpr SampleArray kSampleArrays[] = {{kVelocity, "velocity", 3},
-                                         {kFraction, "fraction", 1},
-                                         {kPressureGradient, "pressure gradient", 3},
-                                         {kStressDivergence, "stress divergence", 3},
-                                         {kVorticity, "vorticity", 3}};
-
 constexpr const char* kEffectOrder[] = {"drag",           "shear_lift", "rotational_lift", "pressure_gradient",
                                         "viscous_stress", "buoyancy",   "drag_torque"};
 constexpr int kDimension = 3;
@@ -61,6 +50,9 @@ FixFluidForce::FixFluidForce(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg,
     error->all(FLERR, ("fix fluid/force '" + std::string(id) + "': " + problem.what()).c_str());
   }
   effects_ = make_effects(options_);
+  seconds_.assign(effects_.size(), 0.0);
+  if (options_.screen.tolerance > 0.0)
+    screen_ = std::make_unique<EffectScreen>(options_.screen, effects_);
   geometry_.set_sphericity(options_.sphericity);
 
   vector_flag = 1;
@@ -74,7 +66,10 @@ FixFluidForce::FixFluidForce(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg,
   restart_peratom = 1;
   create_attribute = 1;
 
-  allocate();
+  arrays_.declare(kImpulse, kDimension, true);
+  arrays_.declare(kCoefficient, 1, true);
+  arrays_.declare(kLast, kDimension + 1, true);
+  switch_effects(std::vector<bool>(effects_.size(), true));
   atom->add_callback(0);
   atom->add_callback(1);
 }
@@ -91,20 +86,32 @@ FixFluidForce* FixFluidForce::find(LAMMPS* lmp) {
   return nullptr;
 }
 
-void FixFluidForce::allocate() {
+void FixFluidForce::switch_effects(const std::vector<bool>& on) {
+  acting_ = on;
   needs_ = 0;
-  for (const auto& effect : effects_)
-    needs_ |= effect->needs();
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    if (acting_[e])
+      needs_ |= effects_[e]->needs();
+  declare_arrays();
+}
+
+void FixFluidForce::declare_arrays() {
   unsigned array = 0;
-  for (const SampleArray& sample : kSampleArrays)
-    arrays_.declare(array++, sample.columns, needs_ & sample.quantity);
-  arrays_.declare(kImpulse, kDimension, true);
-  arrays_.declare(kCoefficient, 1, true);
-  arrays_.declare(kLast, kDimension + 1, true);
+  for (const SampleArray& sample : kSampleArrays) {
+    const bool needed = needs_ & sample.quantity;
+    if (arrays_.enabled(array) != needed || !array_atom)
+      arrays_.declare(array, sample.columns, needed);
+    ++array;
+  }
   grow_arrays(atom->nmax);
 }
 
 FluidSamples FixFluidForce::samples() {
+  awaits_samples_ = false;
+  return sample_arrays();
+}
+
+FluidSamples FixFluidForce::sample_arrays() {
   const auto rows_of_three = [this](unsigned array) { return reinterpret_cast<double(*)[3]>(arrays_.data(array)); };
   return {rows_of_three(0), arrays_.data(1), rows_of_three(2), rows_of_three(3), rows_of_three(4)};
 }
@@ -172,7 +179,13 @@ void FixFluidForce::setup(int) {
                        "' and fix '" + sources_[1] + "': unfix one of them")
                           .c_str());
   first_step_ = true;
-  report();
+  first_of_run_ = update->ntimestep;
+  run_began_ = MPI_Wtime();
+  std::fill(seconds_.begin(), seconds_.end(), 0.0);
+  visits_ = 0.0;
+  if (!reported_)
+    report_effects();
+  reported_ = true;
 }
 
 // The first half kick of a run is applied here and not in setup(), where fixes further down have not yet added theirs.
@@ -197,9 +210,11 @@ void FixFluidForce::pre_initial_integrate() {
 void FixFluidForce::pre_final_integrate() {
   apply(update->dt);
   owed_ = 0.5 * update->dt;
+  if (screen_)
+    follow_screen();
 }
 
-void FixFluidForce::apply(double interval) {
+Kick FixFluidForce::make_kick(double interval) {
   geometry_.refresh();
   Kick kick;
   kick.count = atom->nlocal;
@@ -222,37 +237,31 @@ void FixFluidForce::apply(double interval) {
     if (!std::strcmp(fix->style, "gravity"))
       static_cast<FixGravity*>(fix)->get_gravity(kick.gravity);
   }
-  kick.samples = samples();
+  kick.samples = sample_arrays();
   kick.impulse = reinterpret_cast<double(*)[3]>(arrays_.data(kImpulse));
   kick.drag_coefficient = arrays_.data(kCoefficient);
   kick.last = reinterpret_cast<double(*)[4]>(arrays_.data(kLast));
-  std::fill_n(arrays_.data(kLast), (kDimension + 1) * std::size_t(kick.count), 0.0);
-  for (const auto& effect : effects_)
-    effect->apply(kick);
-  elapsed_ += interval;
+  return kick;
 }
 
-void FixFluidForce::report() {
-  if (reported_ || comm->me != 0)
+void FixFluidForce::apply(double interval) {
+  const Kick kick = make_kick(interval);
+  std::fill_n(arrays_.data(kLast), (kDimension + 1) * std::size_t(kick.count), 0.0);
+  elapsed_ += interval;
+  if (screen_ && screen_->sample_now()) {
+    screen_->apply(kick, effects_, options_.rheology);
     return;
-  reported_ = true;
-  std::string text = "fix fluid/force '" + std::string(id) + "': effects on:";
-  for (const auto& effect : effects_)
-    text += std::string(" ") + effect->name();
-  text += effects_.empty() ? " none; asks the flow for:" : "; asks the flow for:";
-  int doubles = 0;
-  for (const SampleArray& sample : kSampleArrays) {
-    if (!(needs_ & sample.quantity))
-      continue;
-    text += std::string(doubles ? ", " : " ") + sample.name;
-    doubles += sample.columns;
   }
-  text += doubles ? " (" : " nothing (";
-  text += std::to_string(doubles * sizeof(double)) + " bytes per particle); holds " +
-          std::to_string(arrays_.columns() * sizeof(double)) + " bytes per particle\n";
-  for (FILE* out : {screen, logfile})
-    if (out)
-      std::fputs(text.c_str(), out);
+  double before = MPI_Wtime();
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    if (!acting_[e])
+      continue;
+    effects_[e]->apply(kick);
+    const double after = MPI_Wtime();
+    seconds_[e] += after - before;
+    before = after;
+  }
+  visits_ += kick.count;
 }
 
 void FixFluidForce::grow_arrays(int rows) {
@@ -270,7 +279,7 @@ void FixFluidForce::copy_arrays(int from, int to, int) {
 // Until the flow is sampled at it, a new particle moves with the fluid, in clear fluid.
 void FixFluidForce::set_arrays(int i) {
   arrays_.zero(i);
-  const FluidSamples flow = samples();
+  const FluidSamples flow = sample_arrays();
   if (flow.velocity)
     std::copy_n(atom->v[i], kDimension, flow.velocity[i]);
   if (flow.fraction)
@@ -309,19 +318,35 @@ int FixFluidForce::maxsize_restart() {
 }
 
 void FixFluidForce::write_restart(FILE* file) {
+  std::vector<double> state = {elapsed_, owed_, double(effects_.size())};
+  for (const bool on : acting_)
+    state.push_back(on);
+  state.push_back(measurement_due_);
+  state.push_back(screen_ ? 1.0 : 0.0);
+  if (screen_) {
+    const std::vector<double> more = screen_->save(world);
+    state.insert(state.end(), more.begin(), more.end());
+  }
   if (comm->me != 0)
     return;
-  const double state[] = {elapsed_, owed_};
-  const int bytes = sizeof(state);
+  const int bytes = static_cast<int>(state.size() * sizeof(double));
   std::fwrite(&bytes, sizeof(int), 1, file);
-  std::fwrite(state, sizeof(double), std::size(state), file);
+  std::fwrite(state.data(), sizeof(double), state.size(), file);
 }
 
+// The script may name other effects than the one that wrote the file did: then it has its way.
 void FixFluidForce::restart(char* buffer) {
-  double state[2];
-  std::memcpy(state, buffer, sizeof(state));
+  const auto* state = reinterpret_cast<const double*>(buffer);
   elapsed_ = state[0];
   owed_ = state[1];
+  const auto count = static_cast<std::size_t>(state[2]);
+  const double* screened = state + 4 + count;
+  if (count != effects_.size() || !screen_ || *screened == 0.0)
+    return;
+  screen_->load(screened + 1, comm->me == 0);
+  switch_effects(std::vector<bool>(state + 3, state + 3 + count));
+  if (state[3 + count] != 0.0)
+    prepare_measurement();
 }
 
 double FixFluidForce::memory_usage() {
@@ -331,9 +356,9 @@ double FixFluidForce::memory_usage() {
 double FixFluidForce::compute_vector(int n) {
   const std::string wanted = kEffectOrder[n / kDimension];
   double mine = 0.0;
-  for (const auto& effect : effects_)
-    if (wanted == effect->slot())
-      mine = effect->total()[n % kDimension];
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    if (acting_[e] && wanted == effects_[e]->slot())
+      mine = effects_[e]->total()[n % kDimension];
   double all = 0.0;
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;

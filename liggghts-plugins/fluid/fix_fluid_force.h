@@ -5,6 +5,7 @@
 
 #include "fluid/atom_arrays.h"
 #include "fluid/effect.h"
+#include "fluid/effect_screen.h"
 #include "fluid/fluid_options.h"
 #include "fluid/fluid_quantities.h"
 #include "fluid/particle_geometry.h"
@@ -12,8 +13,10 @@
 #include <mpi.h>
 
 #include "fix.h"
+#include "lmptype.h"
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -56,6 +59,7 @@ class FixFluidForce : public LAMMPS_NS::Fix {
   void post_create() override;
   void init() override;
   void setup(int vflag) override;
+  void post_run() override;
   void pre_initial_integrate() override;
   void pre_final_integrate() override;
 
@@ -77,12 +81,30 @@ class FixFluidForce : public LAMMPS_NS::Fix {
 
  private:
   enum ArrayId : unsigned { kImpulse = 8, kCoefficient = 9, kLast = 10 };
-  void allocate();
+  FluidSamples sample_arrays();
+  Kick make_kick(double interval);
+  /// Sets which effects act, and the quantities and arrays that they need.
+  void switch_effects(const std::vector<bool>& on);
+  void declare_arrays();
   void apply(double interval);
-  void report();
+  void follow_screen();
+  void prepare_measurement();
+  std::vector<double> nanoseconds_per_visit();
+  void report_effects();
+  void report_ranges();
+  void report_cost();
+  void print(const std::string& text);
 
   FluidOptions options_;
-  EffectList effects_;
+  EffectList effects_;          ///< all that may act
+  std::vector<bool> acting_;    ///< which of them do
+  std::vector<double> seconds_; ///< spent in each since the last report
+  double visits_ = 0.0;         ///< particles times steps since then
+  double run_began_ = 0.0;
+  LAMMPS_NS::bigint first_of_run_ = 0;
+  std::unique_ptr<EffectScreen> screen_;
+  bool measurement_due_ = false; ///< it begins when the flow has been sampled for all effects
+  bool awaits_samples_ = false;
   ParticleGeometry geometry_;
   AtomArrays arrays_;
   std::vector<double*> rows_; ///< array_atom: last force of each atom
@@ -92,6 +114,7 @@ class FixFluidForce : public LAMMPS_NS::Fix {
   double owed_ = 0.0; ///< time of the last kick that the integrator has not applied yet [s]
   bool first_step_ = true;
   bool reported_ = false;
+  bool range_warned_ = false;
 };
 
 } // namespace eccentra::fluid

@@ -11,6 +11,8 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <limits>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -44,6 +46,9 @@ constexpr DragEntry kDragLaws[] = {
     {"di_felice", &make_drag<DiFelice>, &make_drag<DiFelice>},
 };
 
+/// The drag that a screen weighs where the script names none: the paper's.
+constexpr const char* kScreenedDrag = "chien";
+
 [[noreturn]] void fail(const std::string& text) {
   throw std::invalid_argument(text);
 }
@@ -68,6 +73,13 @@ class WordReader {
   double number(const char* name) {
     const std::string what = "keyword '" + keyword_ + "' (" + name + ")";
     return read_number(word(name), what);
+  }
+  int count(const char* name, int least) {
+    const double value = number(name);
+    if (value != std::floor(value) || value < least || value > std::numeric_limits<int>::max())
+      fail("keyword '" + keyword_ + "' has " + shortest(value) + ": a whole number of at least " +
+           std::to_string(least) + " is needed");
+    return static_cast<int>(value);
   }
   bool on_off() {
     const std::string& value = word("on or off");
@@ -165,8 +177,10 @@ std::string drag_law_names() {
 FluidOptions read_fluid_options(const std::vector<std::string>& words, int atom_types) {
   FluidOptions options;
   WordReader reader(words);
+  std::set<std::string> said;
   while (reader.more()) {
     const std::string keyword = reader.keyword();
+    said.insert(keyword);
     if (keyword == "rheology") {
       read_rheology(reader, options.rheology);
     } else if (keyword == "density") {
@@ -189,18 +203,44 @@ FluidOptions read_fluid_options(const std::vector<std::string>& words, int atom_
       options.pressure_gradient = reader.on_off();
     } else if (keyword == "viscous_stress") {
       options.viscous_stress = reader.on_off();
+    } else if (keyword == "screen") {
+      options.screen.tolerance = positive(reader.number("TOLERANCE"), "the tolerance of 'screen'");
+      if (options.screen.tolerance >= 1.0)
+        fail("the tolerance of 'screen' is " + shortest(options.screen.tolerance) +
+             ": it is a share of weight or drag, so it must be less than 1");
+    } else if (keyword == "screen_steps") {
+      options.screen.steps = reader.count("STEPS", 1);
+    } else if (keyword == "screen_recheck") {
+      options.screen.recheck = reader.count("STEPS", 0);
     } else if (keyword == "sphericity") {
       read_sphericity(reader, options, atom_types);
     } else {
       fail("unknown word '" + keyword +
            "': known are rheology, density, drag, void_reynolds, shear_lift, rotational_lift, drag_torque, "
-           "pressure_gradient, viscous_stress, buoyancy, sphericity");
+           "pressure_gradient, viscous_stress, buoyancy, sphericity, screen, screen_steps, screen_recheck");
     }
   }
   if (options.rheology.consistency == 0.0)
     fail("the word 'rheology' is missing: add rheology herschel_bulkley TAU0 K N");
   if (options.rheology.density == 0.0)
     fail("the word 'density' is missing: add density RHO, the fluid's density in kg/m3");
+  if (options.screen.tolerance == 0.0) {
+    for (const char* word : {"screen_steps", "screen_recheck"})
+      if (said.count(word))
+        fail("'" + std::string(word) + "' says how to screen, but the word 'screen' is missing: add screen TOLERANCE");
+    return options;
+  }
+  // A screen judges every effect that the script has not itself decided on.
+  if (!said.count("drag"))
+    options.drag = kScreenedDrag;
+  const std::pair<const char*, bool*> optional[] = {{"shear_lift", &options.shear_lift},
+                                                    {"rotational_lift", &options.rotational_lift},
+                                                    {"drag_torque", &options.drag_torque},
+                                                    {"pressure_gradient", &options.pressure_gradient},
+                                                    {"viscous_stress", &options.viscous_stress}};
+  for (const auto& [word, on] : optional)
+    if (!said.count(word))
+      *on = true;
   return options;
 }
 

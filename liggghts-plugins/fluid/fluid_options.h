@@ -5,6 +5,7 @@
 
 #include "fluid/effect.h"
 #include "fluid/rheology.h"
+#include "fluid/screen_options.h"
 
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ struct FluidOptions {
   bool buoyancy = true;
   bool pressure_gradient = false;
   bool viscous_stress = false;
+  ScreenOptions screen;
   std::vector<double> sphericity = {1.0}; ///< of plain spheres: one value, or one per atom type
 };
 

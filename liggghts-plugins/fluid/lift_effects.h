@@ -48,6 +48,9 @@ class ShearLift : public Lift {
  public:
   using Lift::Lift;
   const char* name() const override { return "shear_lift"; }
+  std::vector<Validity> validity() const override {
+    return {{kReynolds, 0.0, Mei::kHighestRe}, {kShearParameter, Mei::kLowestBeta, Mei::kHighestBeta}};
+  }
   void apply(const Kick& kick) override {
     for_each(kick, [&](int i, double viscosity, double d, const double* slip, double* f) {
       shear_lift_force(fluid_.density, viscosity, d, slip, kick.samples.vorticity[i], f);
@@ -59,6 +62,10 @@ class RotationalLift : public Lift {
  public:
   using Lift::Lift;
   const char* name() const override { return "rotational_lift"; }
+  std::vector<Validity> validity() const override {
+    return {{kReynolds, OesterleBuiDinh::kLowestRe, OesterleBuiDinh::kHighestRe},
+            {kSpinParameter, OesterleBuiDinh::kLowestSpin, OesterleBuiDinh::kHighestSpin}};
+  }
   void apply(const Kick& kick) override {
     for_each(kick, [&](int i, double viscosity, double d, const double* slip, double* f) {
       double spin[3];

@@ -41,6 +41,7 @@ inline double saffman_mei_coefficient(double re_s, double re_p) {
 /// Re_r/Re_p. Above Re_p = 140 the formula is used as it stands (it tends to 0.45).
 struct OesterleBuiDinh {
   static constexpr double kLowestRe = 10.0, kHighestRe = 140.0;
+  static constexpr double kLowestSpin = 1.0, kHighestSpin = 6.0;
   static constexpr double kPlateau = 0.45, kDecay = 0.05684, kSpinExponent = 0.4, kSlipExponent = 0.3;
 
   /// re_r = rho d^2 |Om|/mu, re_p = rho d U/mu > 0.

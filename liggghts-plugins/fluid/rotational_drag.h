@@ -26,6 +26,8 @@ template <class Stress> class RotationalDrag : public Effect {
       gyration_.push_back(shapes.inertia_factor(kind));
   }
 
+  bool is_torque() const override { return true; }
+  std::vector<Validity> validity() const override { return {{kSpinReynolds, 0.0, Dennis::kHighestRe}}; }
   void apply(const Kick& kick) override {
     double sum[3] = {0.0, 0.0, 0.0};
     for (int i = 0; i < kick.count; ++i) {

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Distribution of a positive quantity over many decades; integer counts make its quantiles the same on any ranks.
+#pragma once
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace eccentra::fluid {
+
+class LogHistogram {
+ public:
+  LogHistogram() : counts_(kBins, 0) {}
+
+  void add(double value) {
+    const double place = value > kLowest ? 1.0 + std::log10(value / kLowest) * kPerDecade : 0.0;
+    ++counts_[static_cast<int>(std::min(place, kBins - 1.0))];
+    const double capped = std::min(value, kHighest);
+    sum_ += capped;
+    largest_ = std::max(largest_, capped);
+  }
+  /// Sums up all ranks; every rank then holds the whole.
+  void merge(MPI_Comm ranks) {
+    MPI_Allreduce(MPI_IN_PLACE, counts_.data(), kBins, MPI_INT64_T, MPI_SUM, ranks);
+    MPI_Allreduce(MPI_IN_PLACE, &sum_, 1, MPI_DOUBLE, MPI_SUM, ranks);
+    MPI_Allreduce(MPI_IN_PLACE, &largest_, 1, MPI_DOUBLE, MPI_MAX, ranks);
+  }
+  std::int64_t count() const {
+    std::int64_t all = 0;
+    for (const std::int64_t c : counts_)
+      all += c;
+    return all;
+  }
+  double mean() const { return count() ? sum_ / double(count()) : 0.0; }
+  double largest() const { return largest_; }
+  /// Value that this part of all stays below; resolved to a bin (5 %), its upper edge.
+  double quantile(double part) const {
+    const double wanted = part * double(count());
+    std::int64_t below = 0;
+    for (int bin = 0; bin < kBins; ++bin) {
+      below += counts_[bin];
+      if (double(below) >= wanted)
+        return bin == 0 ? 0.0 : std::min(largest_, kLowest * std::pow(10.0, double(bin) / kPerDecade));
+    }
+    return largest_;
+  }
+
+  static constexpr int state_size() { return kBins + 2; }
+  void save(double* state) const {
+    std::copy(counts_.begin(), counts_.end(), state);
+    state[kBins] = sum_;
+    state[kBins + 1] = largest_;
+  }
+  void load(const double* state) {
+    for (int bin = 0; bin < kBins; ++bin)
+      counts_[bin] = static_cast<std::int64_t>(state[bin]);
+    sum_ = state[kBins];
+    largest_ = state[kBins + 1];
+  }
+
+ private:
+  static constexpr double kLowest = 1e-12, kHighest = 1e12;
+  static constexpr int kPerDecade = 50;
+  static constexpr int kBins = 24 * kPerDecade + 2; ///< all decades, what lies below and what lies above
+  std::vector<std::int64_t> counts_;
+  double sum_ = 0.0;
+  double largest_ = 0.0;
+};
+
+} // namespace eccentra::fluid
