@@ -109,7 +109,6 @@ void FixRollingLimited::post_force(int) {
     torque[i][1] += change[1];
     torque[i][2] += change[2];
   });
-  limiter_.remember();
 }
 
 int FixRollingLimited::pack_comm(int n, int* list, double* buffer, int, int*) {

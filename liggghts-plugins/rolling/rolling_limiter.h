@@ -30,8 +30,26 @@ struct LimitedContact {
   int j;                  ///< partner, ours or a ghost; -1 is a wall
   double cap;             ///< [N m]
   Eigen::Vector3d normal; ///< unit normal; zero if torsion is resisted, too
-  Eigen::Vector3d torque; ///< on i, now [N m]; already part of the assembled torque
+  Eigen::Vector3d torque; ///< on i from the last step [N m]; already part of the assembled torque
   double* memory;         ///< where the contact remembers its torque; null: it does not (set-up)
+};
+
+/// A growing list whose places are filled in where they lie: one is written per contact and step.
+class ContactList {
+ public:
+  void clear() { count_ = 0; }
+  std::size_t size() const { return count_; }
+  LimitedContact& next() {
+    if (count_ == places_.size())
+      places_.resize(2 * count_ + 64);
+    return places_[count_++];
+  }
+  const LimitedContact* begin() const { return places_.data(); }
+  const LimitedContact* end() const { return places_.data() + count_; }
+
+ private:
+  std::vector<LimitedContact> places_;
+  std::size_t count_ = 0;
 };
 
 class RollingLimiter {
@@ -43,48 +61,54 @@ class RollingLimiter {
     wall_spins_.clear();
     cap_sums_.assign(particles, 0.0);
   }
-  bool empty() const { return pairs_.empty() && walls_.empty(); }
 
-  void add_pair(const LimitedContact& contact) {
-    cap_sums_[contact.i] += contact.cap;
-    cap_sums_[contact.j] += contact.cap;
-    pairs_.push_back(contact);
+  /// A contact of particles i and j (>= 0) with this cap, the rest of which the caller fills in.
+  LimitedContact& add_pair(int i, int j, double cap) {
+    cap_sums_[i] += cap;
+    cap_sums_[j] += cap;
+    LimitedContact& contact = pairs_.next();
+    contact.i = i;
+    contact.j = j;
+    contact.cap = cap;
+    return contact;
   }
-  void add_wall(const LimitedContact& contact, const Eigen::Vector3d& wall_spin) {
-    cap_sums_[contact.i] += contact.cap;
-    walls_.push_back(contact);
+  /// A contact of particle i with a wall that spins [rad/s].
+  LimitedContact& add_wall(int i, double cap, const Eigen::Vector3d& wall_spin) {
+    cap_sums_[i] += cap;
     wall_spins_.push_back(wall_spin);
+    LimitedContact& contact = walls_.next();
+    contact.i = i;
+    contact.j = -1;
+    contact.cap = cap;
+    return contact;
   }
 
   /// Sum of the caps of a particle's contacts [N m]; complete for our own particles, not for ghosts.
   double cap_sum(int i) const { return cap_sums_[i]; }
 
-  /// One sweep over all contacts. `trial`: of all local and ghost particles. `apply(i, torque)` is called with each
-  /// change of torque on a particle of index < `owned`.
+  /// One sweep over all contacts, which then remember their torques. `trial`: of all local and ghost particles.
+  /// `apply(i, torque)` is called with each change of torque on a particle of index < `owned`.
   template <class Apply> void sweep(const std::vector<TrialSpin>& trial, int owned, Apply&& apply);
 
-  /// Stores the torques where the contacts remember them.
-  void remember() const;
-
  private:
-  static Eigen::Vector3d correction(LimitedContact& contact, const Eigen::Vector3d& spin, double compliance) {
+  static Eigen::Vector3d correction(const LimitedContact& contact, const Eigen::Vector3d& spin, double compliance) {
     if (compliance <= 0.0)
       return Eigen::Vector3d::Zero();
     const Eigen::Vector3d stopping = rolling_part(spin, contact.normal) * (contact.cap / compliance);
     const Eigen::Vector3d torque = bounded(contact.torque - stopping, contact.cap);
-    const Eigen::Vector3d change = torque - contact.torque;
-    contact.torque = torque;
-    return change;
+    if (contact.memory)
+      Eigen::Map<Eigen::Vector3d>(contact.memory) = torque;
+    return torque - contact.torque;
   }
 
-  std::vector<LimitedContact> pairs_;
-  std::vector<LimitedContact> walls_;
+  ContactList pairs_;
+  ContactList walls_;
   std::vector<Eigen::Vector3d> wall_spins_;
   std::vector<double> cap_sums_;
 };
 
 template <class Apply> void RollingLimiter::sweep(const std::vector<TrialSpin>& trial, int owned, Apply&& apply) {
-  for (LimitedContact& contact : pairs_) {
+  for (const LimitedContact& contact : pairs_) {
     const TrialSpin& i = trial[contact.i];
     const TrialSpin& j = trial[contact.j];
     const Eigen::Vector3d change = correction(contact, i.spin - j.spin, i.compliance + j.compliance);
@@ -92,21 +116,11 @@ template <class Apply> void RollingLimiter::sweep(const std::vector<TrialSpin>& 
     if (contact.j < owned)
       apply(contact.j, Eigen::Vector3d(-change));
   }
-  for (std::size_t k = 0; k < walls_.size(); ++k) {
-    const TrialSpin& i = trial[walls_[k].i];
-    apply(walls_[k].i, correction(walls_[k], i.spin - wall_spins_[k], i.compliance));
+  const Eigen::Vector3d* wall_spin = wall_spins_.data();
+  for (const LimitedContact& contact : walls_) {
+    const TrialSpin& i = trial[contact.i];
+    apply(contact.i, correction(contact, i.spin - *wall_spin++, i.compliance));
   }
-}
-
-inline void RollingLimiter::remember() const {
-  const auto store = [](const LimitedContact& contact) {
-    if (contact.memory)
-      Eigen::Map<Eigen::Vector3d>(contact.memory) = contact.torque;
-  };
-  for (const LimitedContact& contact : pairs_)
-    store(contact);
-  for (const LimitedContact& contact : walls_)
-    store(contact);
 }
 
 } // namespace eccentra::rolling

@@ -80,14 +80,13 @@ template <> class RollingModel<ROLLING_SHAPE> : public RollingModelBase {
         effective_coefficient(mu_r_[contact.itype][contact.jtype], mu_shape_[contact.itype][contact.jtype]);
     const double lever = contact.is_wall ? contact.radi : lever_arm(contact.radi, contact.radj);
     const double cap = torque_cap(coefficient, lever, contact.kn * contact.deltan);
+    if (form_ == kLimited) {
+      limited(contact, cap, on_i, on_j);
+      return;
+    }
     const Eigen::Vector3d normal(contact.en[0], contact.en[1], contact.en[2]);
-    Eigen::Vector3d torque;
-    if (form_ == kLimited)
-      torque = limited(contact, normal, cap);
-    else if (form_ == kDirectional)
-      torque = directional_torque(relative_spin(contact, normal), cap);
-    else
-      torque = spring_dashpot(contact, normal, coefficient, lever, cap);
+    const Eigen::Vector3d torque = form_ == kDirectional ? directional_torque(relative_spin(contact, normal), cap)
+                                                         : spring_dashpot(contact, normal, coefficient, lever, cap);
     for (int k = 0; k < 3; ++k) {
       on_i.delta_torque[k] += torque[k];
       on_j.delta_torque[k] -= torque[k];
@@ -121,21 +120,39 @@ template <> class RollingModel<ROLLING_SHAPE> : public RollingModelBase {
     return torsion_ ? spin : eccentra::rolling::rolling_part(spin, normal);
   }
 
-  /// The torque that the contact held, turned and cut to what it can hold now; the fix adds the change after all
-  /// forces.
-  Eigen::Vector3d limited(const SurfacesIntersectData& contact, const Eigen::Vector3d& normal, double cap) {
-    using namespace eccentra::rolling;
+  /// Loads the contact with the torque that it held, turned and cut to what it can hold now, and reports it to the fix,
+  /// which adds the change after all forces. Plain numbers: this and the fix are all that the form costs.
+  void limited(const SurfacesIntersectData& contact, double cap, ForceData& on_i, ForceData& on_j) {
     double* const memory = contact.contact_history + memory_offset_;
-    const Eigen::Vector3d axis = torsion_ ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : normal;
-    const Eigen::Vector3d held = bounded(rolling_part(Eigen::Map<const Eigen::Vector3d>(memory), axis), cap);
-    if (contact.computeflag) {
-      double* const remembered = contact.shearupdate ? memory : nullptr;
-      if (contact.is_wall)
-        limiter_->add_wall({contact.i, -1, cap, axis, held, remembered}, wall_spin(contact));
-      else
-        limiter_->add_pair({contact.i, contact.j, cap, axis, held, remembered});
+    double normal[3] = {0.0, 0.0, 0.0};
+    double held[3] = {memory[0], memory[1], memory[2]};
+    if (!torsion_) {
+      const double torsion = held[0] * contact.en[0] + held[1] * contact.en[1] + held[2] * contact.en[2];
+      for (int k = 0; k < 3; ++k) {
+        normal[k] = contact.en[k];
+        held[k] -= torsion * normal[k];
+      }
     }
-    return held;
+    const double squared = held[0] * held[0] + held[1] * held[1] + held[2] * held[2];
+    if (squared > cap * cap) {
+      const double cut = cap / std::sqrt(squared);
+      for (double& component : held)
+        component *= cut;
+    }
+    for (int k = 0; k < 3; ++k) {
+      on_i.delta_torque[k] += held[k];
+      on_j.delta_torque[k] -= held[k];
+    }
+    if (!contact.computeflag)
+      return;
+    eccentra::rolling::LimitedContact& reported = contact.is_wall
+                                                      ? limiter_->add_wall(contact.i, cap, wall_spin(contact))
+                                                      : limiter_->add_pair(contact.i, contact.j, cap);
+    for (int k = 0; k < 3; ++k) {
+      reported.normal[k] = normal[k];
+      reported.torque[k] = held[k];
+    }
+    reported.memory = contact.shearupdate ? memory : nullptr;
   }
 
   Eigen::Vector3d spring_dashpot(const SurfacesIntersectData& contact, const Eigen::Vector3d& normal,
