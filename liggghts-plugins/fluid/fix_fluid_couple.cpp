@@ -31,6 +31,9 @@ namespace {
 const host::RegisterFix<FixFluidCouple> kRecord("fluid/couple", "meets a fluid solver every N steps");
 
 constexpr int kTicketDoubles = 2;
+/// Entries of the vector of stock fix insert/*.
+constexpr int kInsertedNumber = 0;
+constexpr int kInsertedMass = 1;
 
 using RowsOfThree = const double (*)[3];
 } // namespace
@@ -215,9 +218,11 @@ link::DemTotals FixFluidCouple::totals() const {
     kMomentum = kImpulse + 3,
     kPosition = kMomentum + 3,
     kVelocity = kPosition + 3,
-    kCount = kVelocity + 3
+    kParticles = kVelocity + 3,
+    kCount
   };
   double mine[kCount] = {};
+  mine[kParticles] = atom->nlocal;
   double fastest = 0;
   for (int i = 0; i < atom->nlocal; ++i) {
     mine[kVolume] += volume_[i];
@@ -236,7 +241,14 @@ link::DemTotals FixFluidCouple::totals() const {
   MPI_Allreduce(mine, all, kCount, MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(&fastest, &sums.fastest, 1, MPI_DOUBLE, MPI_MAX, world);
   sums.fastest = std::sqrt(sums.fastest);
-  sums.particles = atom->natoms;
+  sums.particles = std::llround(all[kParticles]);
+  for (int i = 0; i < modify->nfix; ++i) {
+    Fix* const fix = modify->fix[i];
+    if (std::strncmp(fix->style, "insert/", std::strlen("insert/")) != 0)
+      continue;
+    sums.inserted += std::llround(fix->compute_vector(kInsertedNumber));
+    sums.inserted_mass += fix->compute_vector(kInsertedMass);
+  }
   sums.volume = all[kVolume];
   sums.mass = all[kMass];
   std::copy_n(all + kImpulse, 3, sums.impulse);

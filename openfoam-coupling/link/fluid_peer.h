@@ -39,6 +39,8 @@ struct ParticleArrays {
 /// Sums over all particles of all ranks, for the balances. World frame, SI.
 struct DemTotals {
   std::int64_t particles = 0;
+  std::int64_t inserted = 0;             ///< by the insertion fixes that the script has at present
+  double inserted_mass = 0;              ///< [kg]
   double volume = 0;                     ///< [m3]
   double mass = 0;                       ///< [kg]
   double impulse[3] = {0, 0, 0};         ///< sum of ParticleArrays::impulse [N s]

@@ -54,9 +54,23 @@ couplingReport::couplingReport(const fvMesh& mesh, const link::DemTerms& dem, in
     *csv_ << "time,particles,mean_velocity,pressure_gradient,solid_concentration,solids_flux,com_x,com_y,com_z,com_"
              "height,"
              "bed_height,bed_area,fastest_particle,least_fraction,courant,continuity_error,volume_error,impulse_error,"
-             "pressure_error,dem_seconds,fluid_seconds,exchange_seconds,link_seconds\n";
+             "pressure_error,dem_seconds,fluid_seconds,exchange_seconds,link_seconds,"
+             "inserted,left,inserted_mass,mass,global_continuity_error\n";
     csv_->precision(10);
   }
+}
+
+// Between inlet and outlet the mean pressures of the two ends tell what the section costs.
+double couplingReport::pressureDrop(const averagedFlow& flow) const {
+  const label inlet = mesh_.boundaryMesh().findPatchID("inlet");
+  const label outlet = mesh_.boundaryMesh().findPatchID("outlet");
+  if (flow.drivingPressureGradient() != 0 || inlet < 0 || outlet < 0)
+    return flow.drivingPressureGradient();
+  const auto mean = [&](label patch) {
+    const scalarField& areas = mesh_.magSf().boundaryField()[patch];
+    return gSum(scalarField(areas * flow.p().boundaryField()[patch])) / gSum(areas);
+  };
+  return flow.rho() * (mean(inlet) - mean(outlet)) / length_;
 }
 
 couplingReport::Bed couplingReport::bed(const volScalarField& alpha) const {
@@ -96,6 +110,11 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
   const double meanVelocity = flow.superficialVelocity() & axis_;
   const double courant = flow.CourantNo();
   const double continuity = flow.continuityError();
+  const double globalContinuity = flow.globalContinuityError();
+  if (initially_ < 0)
+    initially_ = totals.particles - totals.inserted;
+  const std::int64_t left = initially_ + totals.inserted - totals.particles;
+  const double gradient = pressureDrop(flow);
   const double concentration = totals.volume / gSum(mesh_.V());
   const double flux = (vectorOf(totals.volume_velocity) & axis_) / length_;
   const double volumeError = relative(std::abs(balance.meshVolume - balance.particleVolume), balance.particleVolume);
@@ -111,22 +130,23 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
          << endl;
   if (!Pstream::master())
     return;
-  *csv_ << mesh_.time().value() << ',' << totals.particles << ',' << meanVelocity << ','
-        << flow.drivingPressureGradient() << ',' << concentration << ',' << flux << ',' << centre.x() << ','
-        << centre.y() << ',' << centre.z() << ',' << (totals.particles ? lowest_ - (centre & down_) : 0.0) << ','
-        << bed.height << ',' << bed.area << ',' << totals.fastest << ',' << bed.leastFraction << ',' << courant << ','
-        << continuity << ',' << volumeError << ',' << impulseError << ',' << pressureError;
+  *csv_ << mesh_.time().value() << ',' << totals.particles << ',' << meanVelocity << ',' << gradient << ','
+        << concentration << ',' << flux << ',' << centre.x() << ',' << centre.y() << ',' << centre.z() << ','
+        << (totals.particles ? lowest_ - (centre & down_) : 0.0) << ',' << bed.height << ',' << bed.area << ','
+        << totals.fastest << ',' << bed.leastFraction << ',' << courant << ',' << continuity << ',' << volumeError
+        << ',' << impulseError << ',' << pressureError;
   for (const double part : parts)
     *csv_ << ',' << part;
-  *csv_ << std::endl;
+  *csv_ << ',' << totals.inserted << ',' << left << ',' << totals.inserted_mass << ',' << totals.mass << ','
+        << globalContinuity << std::endl;
 
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   const double done = meeting.steps_total > 0 ? double(meeting.steps_done) / double(meeting.steps_total) : 0.0;
   std::printf("t %.4g s  %3.0f %%  left %.0f s | %lld particles, U %.4g m/s, dp/dz %.4g Pa/m, flux %.3g m3/s, fastest "
               "%.3g m/s, alpha >= %.3f | errors: volume %.1e impulse %.1e pressure %.1e continuity %.1e\n",
               mesh_.time().value(), 100 * done, done > 0 ? elapsed * (1 - done) / done : 0.0,
-              static_cast<long long>(totals.particles), meanVelocity, flow.drivingPressureGradient(), flux,
-              totals.fastest, bed.leastFraction, volumeError, impulseError, pressureError, continuity);
+              static_cast<long long>(totals.particles), meanVelocity, gradient, flux, totals.fastest, bed.leastFraction,
+              volumeError, impulseError, pressureError, continuity);
   std::fflush(stdout);
 }
 
