@@ -4,6 +4,8 @@
 #include "cluster/timestep_limit.h"
 
 #include "cluster/bodies.h"
+#include "cluster/pair_gran_cluster.h"
+#include "cluster/shared_contacts.h"
 #include "cluster/wall_gran_cluster.h"
 #include "host/style_registry.h"
 
@@ -118,6 +120,8 @@ void FixTimestepLimit::init() {
   registry.connect("Geff", shear_, caller);
   registry.connect("betaeff", damping_, caller);
   bodies_ = FixBodies::find(lmp);
+  const auto* pair = dynamic_cast<const PairGranCluster*>(force->pair);
+  pair_shares_ = pair && pair->words().sharing == ContactSharing::shared;
 }
 
 void FixTimestepLimit::setup(int) {
@@ -162,7 +166,8 @@ void FixTimestepLimit::add_pair(int i, int j, std::vector<BodyStiffness>& bodies
   const Eigen::Matrix3d ra = rotation_of(i);
   const Eigen::Matrix3d rb = rotation_of(j);
   const double mass = atom->rmass[i] * atom->rmass[j] / (atom->rmass[i] + atom->rmass[j]);
-  constexpr double kBothMove = 2;
+  touching_.clear();
+  SharedStiffness all;
   for (int p = 0; p < a.count; ++p) {
     const double radius_a = a.r[p] + extra_of(i);
     const Eigen::Vector3d arm_a = ra * Eigen::Vector3d(a.x[p], a.y[p], a.z[p]);
@@ -179,11 +184,21 @@ void FixTimestepLimit::add_pair(int i, int j, std::vector<BodyStiffness>& bodies
       const Eigen::Vector3d n = line / distance;
       const double radius = radius_a * radius_b / (radius_a + radius_b);
       const ContactStiffness contact = stiffness(atom->type[i], atom->type[j], radius, overlap, mass);
-      if (i < atom->nlocal)
-        bodies[i].add(contact, n, arm_a + (radius_a - 0.5 * overlap) * n, kBothMove);
-      if (j < atom->nlocal)
-        bodies[j].add(contact, n, arm_b - (radius_b - 0.5 * overlap) * n, kBothMove);
+      touching_.push_back({contact, n, arm_a + (radius_a - 0.5 * overlap) * n, arm_b - (radius_b - 0.5 * overlap) * n});
+      all.add(contact.normal, overlap, n.x(), n.y(), n.z());
     }
+  }
+  constexpr double kBothMove = 2;
+  for (Touching& t : touching_) {
+    if (pair_shares_) {
+      const double share = all.damping_share(t.contact.normal, t.n.x(), t.n.y(), t.n.z());
+      t.contact.normal_damping *= share;
+      t.contact.tangential_damping *= share;
+    }
+    if (i < atom->nlocal)
+      bodies[i].add(t.contact, t.n, t.arm_a, kBothMove);
+    if (j < atom->nlocal)
+      bodies[j].add(t.contact, t.n, t.arm_b, kBothMove);
   }
 }
 
@@ -206,8 +221,10 @@ void FixTimestepLimit::add_wall_contacts(std::vector<BodyStiffness>& bodies) {
       continue;
     wall->for_each_touch([&](const WallTouch& touch) {
       const int i = touch.atom;
-      bodies[i].add(stiffness(atom->type[i], touch.wall_type, touch.radius, touch.overlap, atom->rmass[i]),
-                    touch.normal, touch.lever, kWallRests);
+      ContactStiffness contact = stiffness(atom->type[i], touch.wall_type, touch.radius, touch.overlap, atom->rmass[i]);
+      contact.normal_damping *= touch.share;
+      contact.tangential_damping *= touch.share;
+      bodies[i].add(contact, touch.normal, touch.lever, kWallRests);
     });
   }
 }

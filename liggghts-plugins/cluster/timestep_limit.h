@@ -38,6 +38,11 @@ class FixTimestepLimit : public LAMMPS_NS::Fix {
     int contacts;
   };
 
+  struct Touching {
+    ContactStiffness contact;
+    Eigen::Vector3d n, arm_a, arm_b;
+  };
+
   [[noreturn]] void fail(const std::string& sentence);
   void evaluate();
   void add_body_contacts(std::vector<BodyStiffness>& bodies);
@@ -56,6 +61,8 @@ class FixTimestepLimit : public LAMMPS_NS::Fix {
   Limit limit_{};
   double reported_ = 0.0; ///< critical step of the last report
   FixBodies* bodies_ = nullptr;
+  bool pair_shares_ = false;
+  std::vector<Touching> touching_; ///< sub-contacts of the pair at hand
   double** youngs_ = nullptr;
   double** shear_ = nullptr;
   double** damping_ = nullptr;

@@ -144,7 +144,11 @@ void FixWallGranCluster::init() {
   registry.connect("betaeff", damping_, caller);
   registry.connect("coeffFrict", friction_, caller);
   if (words_.rolling)
-    words_.rolling->init(lmp);
+    try {
+      words_.rolling->init(lmp);
+    } catch (const std::invalid_argument& problem) {
+      fail(problem.what());
+    }
   if (meshes_)
     try {
       meshes_->find();
@@ -209,7 +213,7 @@ void FixWallGranCluster::collect(int i) {
   next_history_.clear();
   for (std::size_t m = first; m < touches_.size(); ++m) {
     touches_[m].slot = static_cast<int>(next_history_.size());
-    next_history_.push_back({touches_[m].key, old_shear(i, touches_[m])});
+    next_history_.push_back(old_entry(i, touches_[m]));
   }
   history_[i].swap(next_history_);
   if (words_.shared)
@@ -294,17 +298,17 @@ void FixWallGranCluster::collect_mesh(int i) {
   });
 }
 
-Eigen::Vector3d FixWallGranCluster::old_shear(int i, const WallTouch& touch) const {
+WallHistoryEntry FixWallGranCluster::old_entry(int i, const WallTouch& touch) const {
   const WallHistory::Entries& entries = history_[i];
   for (const WallHistoryEntry& old : entries)
     if (old.key == touch.key)
-      return old.shear;
+      return old;
   if (meshes_)
     for (const WallHistoryEntry& old : entries)
       if (old.key.sub() == touch.key.sub() && old.key.mesh() == touch.key.mesh() &&
           meshes_->coplanar(touch.key.mesh(), old.key.triangle(), touch.key.triangle()))
-        return old.shear;
-  return Eigen::Vector3d::Zero();
+        return {touch.key, old.shear, old.rolling};
+  return {touch.key, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
 }
 
 // The wall is body B of the contact law: the contact point is its centre, so it has no arm and its spin adds nothing.
@@ -342,10 +346,11 @@ void FixWallGranCluster::scatter(int m, const WallTouch& touch) {
   history_[i][touch.slot].shear = row(block.history);
   const Eigen::Vector3d force = row(block.force);
   Eigen::Vector3d torque = row(block.torque_a);
-  if (words_.rolling) {
+  if (words_.rolling && is_plain_sphere(i)) {
     const double kn = 4. / 3. * block.youngs[m] * block.contact_radius[m];
-    torque += words_.rolling->torque({i, atom->type[i], touch.wall_type, kn * touch.overlap, touch.radius, touch.normal,
-                                      vector3(atom->omega[i]) - touch.wall_omega});
+    torque += words_.rolling->torque({i, atom->type[i], touch.wall_type, atom->rmass[i], kn, kn * touch.overlap,
+                                      touch.radius, touch.normal, vector3(atom->omega[i]) - touch.wall_omega,
+                                      touch.wall_omega, history_[i][touch.slot].rolling.data(), !update->setupflag});
   }
   add(atom->f[i], force);
   add(atom->torque[i], torque);

@@ -46,6 +46,8 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
     for (const int i : near_) {
       touches_.clear();
       find_touches(i);
+      if (words_.shared)
+        share_damping(i, 0);
       for (const WallTouch& touch : touches_)
         visit(touch);
     }
@@ -76,8 +78,8 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   void find_touches(int i);
   void collect_primitive(int i);
   void collect_mesh(int i);
-  /// Tangential displacement with which a contact of this atom goes on: its own, or that of a coplanar triangle before.
-  Eigen::Vector3d old_shear(int i, const WallTouch& touch) const;
+  /// History with which a contact of this atom goes on: its own, or that of a coplanar triangle before.
+  WallHistoryEntry old_entry(int i, const WallTouch& touch) const;
   /// Scales the damping of the atom's contacts, touches_[first] and after, to what all of them are together.
   void share_damping(int i, std::size_t first);
   /// Forces of all collected contacts, a block at a time.

@@ -36,10 +36,12 @@ class WallContactKey {
 
 struct WallHistoryEntry {
   WallContactKey key;
-  Eigen::Vector3d shear; ///< tangential displacement [m], world frame
+  Eigen::Vector3d shear;   ///< tangential displacement [m], world frame
+  Eigen::Vector3d rolling; ///< what the rolling model remembers
 };
 
-/// Rows are local atoms. Packed form of an atom: number of doubles that follow, then (key, shear x y z) per contact.
+/// Rows are local atoms. Packed form of an atom: number of doubles that follow, then (key, shear x y z, rolling x y z)
+/// per contact.
 class WallHistory {
  public:
   using Entries = std::vector<WallHistoryEntry>;
@@ -57,8 +59,9 @@ class WallHistory {
     buffer[m++] = packed_size(i) - 1;
     for (const WallHistoryEntry& entry : of_atom_[i]) {
       buffer[m++] = entry.key.packed();
-      for (int k = 0; k < 3; ++k)
-        buffer[m++] = entry.shear[k];
+      for (const Eigen::Vector3d& vector : {entry.shear, entry.rolling})
+        for (int k = 0; k < 3; ++k)
+          buffer[m++] = vector[k];
     }
     return m;
   }
@@ -67,10 +70,12 @@ class WallHistory {
     const int end = 1 + static_cast<int>(buffer[m++]);
     of_atom_[i].clear();
     while (m < end) {
-      const WallContactKey key(buffer[m++]);
-      const Eigen::Vector3d shear(buffer[m], buffer[m + 1], buffer[m + 2]);
-      m += 3;
-      of_atom_[i].push_back({key, shear});
+      WallHistoryEntry entry;
+      entry.key = WallContactKey(buffer[m++]);
+      for (Eigen::Vector3d* vector : {&entry.shear, &entry.rolling})
+        for (int k = 0; k < 3; ++k)
+          (*vector)[k] = buffer[m++];
+      of_atom_[i].push_back(entry);
     }
     return m;
   }
@@ -89,7 +94,7 @@ class WallHistory {
   }
 
  private:
-  static constexpr int kDoublesPerEntry = 4;
+  static constexpr int kDoublesPerEntry = 7;
   std::vector<Entries> of_atom_;
 };
 

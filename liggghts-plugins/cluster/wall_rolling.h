@@ -23,19 +23,24 @@ struct WallRollingContact {
   int atom;                         ///< local index
   int atom_type;                    ///< material of the particle
   int wall_type;                    ///< material of the wall
+  double mass;                      ///< [kg]
+  double stiffness;                 ///< kn, secant [N/m]
   double elastic_normal;            ///< kn overlap [N]
   double lever;                     ///< effective radius of eq (19): of the (sub-)sphere [m]
   Eigen::Vector3d normal;           ///< unit, from the wall to the particle
   Eigen::Vector3d angular_velocity; ///< of the particle relative to the wall [rad/s]
+  Eigen::Vector3d wall_spin;        ///< angular velocity of the wall [rad/s]
+  double* memory;                   ///< 3 values that this contact keeps from step to step; they migrate and restart
+  bool advance;                     ///< false while setting up: memory is to be read only
 };
 
-/// A rolling-friction model at walls.
+/// A rolling-friction model at walls. It acts on plain spheres: clusters roll by their shape.
 class WallRolling {
  public:
   virtual ~WallRolling() = default;
   /// Consumes this model's own words from words[at] on and advances `at`; leaves what it does not know.
   virtual void read_words(const std::vector<std::string>& words, std::size_t& at) = 0;
-  /// Before each run: fetch coefficients.
+  /// Before each run: fetch coefficients. Throws std::invalid_argument with one sentence where that is not possible.
   virtual void init(LAMMPS_NS::LAMMPS* lmp) = 0;
   /// Torque on the particle [N m]. Called once per contact and step.
   virtual Eigen::Vector3d torque(const WallRollingContact& contact) = 0;

@@ -238,3 +238,31 @@ TEST(WallSpheres, RestartGoesOnToTheLastDigit) {
   for (int k = 0; k < 9; ++k)
     EXPECT_EQ(restarted[k], straight[k]) << "component " << k;
 }
+
+TEST(WallSpheres, RollingFrictionShapeIsThatOfStockWalls) {
+  for (const std::string form : {"limited", "directional", "epsd"}) {
+    const auto rolling = [&](const std::string& style, bool words_last) {
+      LiggghtsSession session;
+      session.script(wall_scene(1e-5, "0.5", "0.02"));
+      const std::string words = " form " + form + " torsionTorque off";
+      session.script("fix m6 all property/global shapeRollingFriction peratomtypepair 2 0.03 0.03 0.03 0.03\n"
+                     "pair_style gran model hertz tangential history rolling_friction shape" +
+                     words + R"(
+        pair_coeff * *
+        create_atoms 1 single -0.02 0.01 -0.0919 units box
+        set group all diameter 6.35e-3 density 2619
+        velocity all set 0.1 0.02 0
+        fix gravity all gravity 9.81 vector 0 0 -1
+      )");
+      const std::string wall = " primitive type 1 zplane -0.095";
+      session.script("fix floor all " + style + " model hertz tangential history rolling_friction shape" +
+                     (words_last ? wall + words : words + wall) + "\nfix integrate all nve/sphere\nrun 10000");
+      return state_of(session, 1);
+    };
+    const auto ours = rolling("wall/gran/cluster", false);
+    const auto stock = rolling("wall/gran", true);
+    EXPECT_GT(ours[0], -0.015) << "it has rolled on";
+    for (int k = 0; k < 9; ++k)
+      EXPECT_NEAR(ours[k], stock[k], 1e-9 * (k < 3 ? 1e-3 : k < 6 ? 0.1 : 10.0)) << form << ", component " << k;
+  }
+}
