@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 namespace eccentra::fluid {
@@ -19,9 +20,10 @@ constexpr double kDragFractionFloor = 0.3;
 
 template <class Stress, class Law> class DragEffect : public Effect {
  public:
-  DragEffect(const char* name, const Rheology& fluid) : name_(name), stress_(fluid), density_(fluid.density) {}
+  DragEffect(const char* name, const Rheology& fluid)
+      : name_("drag " + std::string(name)), stress_(fluid), density_(fluid.density) {}
 
-  const char* name() const override { return name_; }
+  const char* name() const override { return name_.c_str(); }
   const char* slot() const override { return "drag"; }
   unsigned needs() const override { return kVelocity | kFraction; }
   void prepare(const ShapeCatalogue& shapes) override {
@@ -74,7 +76,7 @@ template <class Stress, class Law> class DragEffect : public Effect {
   }
 
  private:
-  const char* name_;
+  std::string name_;
   Stress stress_;
   double density_;
   std::vector<Law> laws_;

@@ -81,6 +81,8 @@ class Effect {
   /// True if it acts on spins (Kick::torque), false if on velocities (Kick::force).
   virtual bool is_torque() const { return false; }
   virtual std::vector<Validity> validity() const { return {}; }
+  /// Slot of an effect that must act wherever this one does, or null.
+  virtual const char* requires_slot() const { return nullptr; }
 
   /// Sum over this rank's particles of the force (or torque) of the last kick, world frame.
   const double* total() const { return total_; }

@@ -118,7 +118,7 @@ void EffectScreen::start() {
   done_ = 0;
 }
 
-std::vector<bool> EffectScreen::decide(MPI_Comm ranks) {
+std::vector<bool> EffectScreen::decide(MPI_Comm ranks, const EffectList& effects) {
   for (LogHistogram* histogram : histograms())
     histogram->merge(ranks);
   std::vector<std::size_t> order(measures_.size());
@@ -134,6 +134,10 @@ std::vector<bool> EffectScreen::decide(MPI_Comm ranks) {
       break;
     keep[e] = false;
   }
+  for (std::size_t e = 0; e < effects.size(); ++e)
+    for (std::size_t other = 0; keep[e] && effects[e]->requires_slot() && other < effects.size(); ++other)
+      if (!std::strcmp(effects[other]->slot(), effects[e]->requires_slot()))
+        keep[other] = true;
   measuring_ = false;
   done_ = 0;
   return keep;

@@ -17,7 +17,8 @@ namespace eccentra::fluid {
 
 /// During a measurement every effect is on. Forces are compared with the larger of submerged weight and drag of the
 /// same particle; the rotational drag with the sum of all other torques on it. The effects with the smallest 95 %
-/// values are dropped as long as what is dropped stays, added up, below the tolerance.
+/// values are dropped as long as what is dropped stays, added up, below the tolerance; what another needs stays with
+/// it.
 class EffectScreen {
  public:
   EffectScreen(const ScreenOptions& options, const EffectList& effects);
@@ -33,7 +34,7 @@ class EffectScreen {
   /// Begins a measurement.
   void start();
   /// Ends a measurement: one flag per effect, true keeps it. The same on all ranks.
-  std::vector<bool> decide(MPI_Comm ranks);
+  std::vector<bool> decide(MPI_Comm ranks, const EffectList& effects);
   /// The table of the last measurement; nanoseconds per particle and step of each effect as measured elsewhere.
   std::string table(const EffectList& effects, const std::vector<bool>& keep,
                     const std::vector<double>& nanoseconds) const;

@@ -75,7 +75,7 @@ void FixFluidForce::follow_screen() {
   const std::vector<bool> all(effects_.size(), true);
   if (screen_->measuring()) {
     const std::vector<double> cost = nanoseconds_per_visit();
-    const std::vector<bool> keep = screen_->decide(world);
+    const std::vector<bool> keep = screen_->decide(world, effects_);
     print("fix fluid/force '" + std::string(id) + "', step " + std::to_string(update->ntimestep) + ", " +
           screen_->table(effects_, keep, cost));
     switch_effects(keep);

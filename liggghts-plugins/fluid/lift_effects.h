@@ -62,6 +62,8 @@ class RotationalLift : public Lift {
  public:
   using Lift::Lift;
   const char* name() const override { return "rotational_lift"; }
+  /// A spin that nothing damps would make this lift grow.
+  const char* requires_slot() const override { return "drag_torque"; }
   std::vector<Validity> validity() const override {
     return {{kReynolds, OesterleBuiDinh::kLowestRe, OesterleBuiDinh::kHighestRe},
             {kSpinParameter, OesterleBuiDinh::kLowestSpin, OesterleBuiDinh::kHighestSpin}};

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The screen keeps what decides and drops what does not, the same on any ranks and after a restart.
+#include "fluid/fluid_quantities.h"
+#include "fluid/log_histogram.h"
+
+#include "fluid_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <ostream>
+
+using namespace eccentra::test;
+using namespace eccentra::fluid;
+
+namespace {
+
+/// 32 spheres apart from each other, sinking in a fluid that shears in z.
+std::string scene(const std::string& flow, const std::string& words,
+                  const std::string& fluid = "herschel_bulkley 1 0.28 0.65") {
+  return scene_head() + "lattice sc 0.05\ncreate_atoms 1 box\nset group all diameter 0.00635 density 2619\n" +
+         gravity() + "timestep 1e-4\nfix integrate all nve/sphere\nfix mud all fluid/force rheology " + fluid +
+         " density 1000 " + words + "\nfix flow all fluid/uniform velocity 0 0 0 " + flow + "\n";
+}
+
+/// Mean velocity of all spheres.
+std::array<double, 3> mean_velocity(LiggghtsSession& session) {
+  double sums[4] = {0, 0, 0, double(session.atom().nlocal)};
+  for (int i = 0; i < session.atom().nlocal; ++i)
+    for (int k = 0; k < 3; ++k)
+      sums[k] += session.atom().v[i][k];
+  MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  return {sums[0] / sums[3], sums[1] / sums[3], sums[2] / sums[3]};
+}
+
+unsigned needs(LiggghtsSession& session) {
+  return FixFluidForce::find(&session.lammps())->needs();
+}
+
+/// In a dilute scene the rotational drag is the only torque, so a screen keeps it and its vorticity with it.
+constexpr const char* kNoTorque = "drag_torque none ";
+
+struct Scene {
+  const char* name;
+  std::string flow;
+  std::string fluid;
+  unsigned quantity; ///< the one that tells whether the effect stays
+  std::string others_off;
+  bool decides;
+};
+
+void PrintTo(const Scene& scene, std::ostream* stream) {
+  *stream << scene.name;
+}
+
+class Screen : public ::testing::TestWithParam<Scene> {};
+
+TEST_P(Screen, KeepsWhatDecidesAndStaysWithinTwiceTheTolerance) {
+  const Scene& c = GetParam();
+  constexpr double tolerance = 0.01;
+  std::array<double, 3> all{}, screened{};
+  {
+    LiggghtsSession session;
+    const std::string everything = "drag chien shear_lift saffman_mei rotational_lift oesterle_bui_dinh "
+                                   "pressure_gradient on viscous_stress on drag_torque dennis ";
+    session.script(scene(c.flow, everything + c.others_off, c.fluid) + "run 4000\n");
+    all = mean_velocity(session);
+  }
+  {
+    LiggghtsSession session;
+    session.script(scene(c.flow, c.others_off + "screen 0.01 screen_steps 2000 screen_recheck 0", c.fluid) + "run 1\n");
+    EXPECT_TRUE(needs(session) & c.quantity) << "everything is on while the screen looks";
+    session.command("run 3999");
+    EXPECT_EQ(bool(needs(session) & c.quantity), c.decides);
+    screened = mean_velocity(session);
+  }
+  const double size = std::sqrt(all[0] * all[0] + all[1] * all[1] + all[2] * all[2]);
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(screened[k], all[k], 2 * tolerance * size);
+}
+
+const std::string kMud = "herschel_bulkley 1 0.28 0.65", kOil = "newtonian 0.1";
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, Screen,
+    ::testing::Values(Scene{"strong_gradient", "pressure_gradient 0 3000 0", kMud, kPressureGradient, "", true},
+                      Scene{"strong_gradient_in_oil", "pressure_gradient 2000 0 0", kOil, kPressureGradient, "", true},
+                      Scene{"weak_gradient", "pressure_gradient 0 30 0", kMud, kPressureGradient, "", false},
+                      Scene{"weak_gradient_in_oil", "pressure_gradient 0 0 40", kOil, kPressureGradient, "", false},
+                      Scene{"strong_stress", "stress_divergence 1000 0 0", kMud, kStressDivergence, "", true},
+                      Scene{"strong_stress_in_oil", "stress_divergence 0 0 2000", kOil, kStressDivergence, "", true},
+                      Scene{"weak_stress", "stress_divergence 20 0 0", kMud, kStressDivergence, "", false},
+                      Scene{"weak_stress_in_oil", "stress_divergence 20 0 0", kOil, kStressDivergence, "", false},
+                      Scene{"strong_shear", "velocity_gradient 0 0 0 0 0 0 20 0 0 origin 0.05 0 0", kOil, kVorticity,
+                            kNoTorque, true},
+                      Scene{"strong_shear_in_mud", "velocity_gradient 0 0 0 0 0 0 20 0 0 origin 0.05 0 0", kMud,
+                            kVorticity, kNoTorque, true},
+                      Scene{"weak_shear", "velocity_gradient 0 0 0 0 0 0 0.001 0 0 origin 0.05 0 0", kOil, kVorticity,
+                            kNoTorque, false},
+                      Scene{"no_shear", "", kMud, kVorticity, kNoTorque, false}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(ScreenState, RecheckSwitchesOnWhatHasComeToMatter) {
+  LiggghtsSession session;
+  session.script("variable gx equal 2000*(step>600)\n" +
+                 scene("pressure_gradient v_gx 0 0",
+                       "drag chien drag_torque none screen 0.01 screen_steps 200 screen_recheck 500") +
+                 "run 250\n");
+  EXPECT_FALSE(needs(session) & kPressureGradient);
+  session.command("run 1000");
+  EXPECT_TRUE(needs(session) & kPressureGradient);
+}
+
+TEST(ScreenState, RestartContinuesBitForBit) {
+  const std::string words = "screen 0.01 screen_steps 200 screen_recheck 300";
+  const std::string flow = "velocity_gradient 0 0 0 0 0 0 3 0 0 pressure_gradient 0 100 0";
+  std::array<double, 3> straight{}, restarted{};
+  unsigned needs_straight = 0;
+  for (const int stop : {150, 350, 500}) { // in the first measurement, in the pause, about to measure again
+    {
+      LiggghtsSession session;
+      session.script(scene(flow, words) + "run " + std::to_string(stop) + "\nwrite_restart screen.restart\nrun 400\n");
+      straight = mean_velocity(session);
+      needs_straight = needs(session);
+    }
+    LiggghtsSession session;
+    std::string script = scene(flow, words);
+    const auto box = script.find("region box"), neighbor = script.find("neighbor");
+    script.replace(box, neighbor - box, "read_restart screen.restart\n");
+    const auto create = script.find("lattice"), after = script.find("fix gravity");
+    script.erase(create, after - create);
+    session.script(script + "run 400\n");
+    restarted = mean_velocity(session);
+    EXPECT_EQ(needs(session), needs_straight);
+    for (int k = 0; k < 3; ++k)
+      EXPECT_EQ(restarted[k], straight[k]) << "stopped at " << stop;
+  }
+}
+
+TEST(ScreenState, SpinStaysDampedWhereItMakesLift) {
+  LiggghtsSession session;
+  session.script(scene("velocity_gradient 0 0 0 0 0 0 20 0 0 origin 0.05 0 0",
+                       "shear_lift none screen 0.001 screen_steps 200", kOil) +
+                 "run 250\n");
+  EXPECT_TRUE(needs(session) & kVorticity);
+}
+
+TEST(LogHistogram, QuantilesAreThoseOfTheData) {
+  LogHistogram histogram;
+  for (int n = 1; n <= 1000; ++n)
+    histogram.add(1e-3 * n);
+  EXPECT_NEAR(histogram.quantile(.95), .95, .05 * .95);
+  EXPECT_NEAR(histogram.quantile(.5), .5, .05 * .5);
+  EXPECT_DOUBLE_EQ(histogram.largest(), 1.0);
+  EXPECT_NEAR(histogram.mean(), .5005, 1e-12);
+  histogram.add(std::numeric_limits<double>::infinity());
+  EXPECT_EQ(histogram.largest(), 1e12);
+  LogHistogram zeros;
+  zeros.add(0.0);
+  EXPECT_EQ(zeros.quantile(.95), 0.0);
+}
+
+} // namespace
