@@ -1,0 +1,314 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Particles on a real annulus mesh, whole and cut in two: volume, momentum, adjointness, place and order of sampling.
+// The particles of a scene are dealt out to the ranks in turn, so that nearly half of them lie on another rank than
+// their cell.
+#include "exchange/particleExchange.H"
+
+#include "Time.H"
+#include "argList.H"
+#include "fvCFD.H"
+
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+namespace {
+
+using namespace eccentra;
+using namespace eccentra::exchange;
+
+constexpr double kDiameter = 6.35e-3;
+constexpr double kLength = 0.1;
+constexpr double kHole = 0.0635, kPipe = 0.02413, kOffset = 0.019685;
+constexpr double kElapsed = 5e-3;
+
+Foam::fvMesh* sharedMesh = nullptr;
+
+int rank() {
+  return Foam::Pstream::parRun() ? Foam::Pstream::myProcNo() : 0;
+}
+int ranks() {
+  return Foam::Pstream::nProcs();
+}
+
+/// Particles of one rank, with room for all samples.
+struct Scene {
+  std::vector<std::array<double, 3>> position, impulse, velocitySample, pressureSample, vorticitySample;
+  std::vector<double> volume, drag, fractionSample;
+  std::vector<std::array<double, 9>> extent;
+  std::vector<link::Ticket> ticket;
+  int dealt = 0;
+
+  void add(double x, double y, double z, std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    const std::array<double, 3> push{1e-5 * normal(random), 1e-5 * normal(random), 1e-5 * normal(random)};
+    std::array<double, 9> axes;
+    for (double& value : axes)
+      value = 0.3 * kDiameter * normal(random);
+    if (dealt++ % ranks() != rank())
+      return;
+    position.push_back({x, y, z});
+    impulse.push_back(push);
+    extent.push_back(axes);
+    volume.push_back(M_PI / 6 * std::pow(kDiameter, 3));
+    drag.push_back(1e-7);
+  }
+
+  link::ParticleArrays arrays(bool clusters = false) {
+    link::ParticleArrays view;
+    view.count = position.size();
+    ticket.resize(view.count);
+    view.position = reinterpret_cast<const double(*)[3]>(position.data());
+    view.volume = volume.data();
+    view.impulse = reinterpret_cast<const double(*)[3]>(impulse.data());
+    view.drag_coefficient = drag.data();
+    if (clusters)
+      view.extent = reinterpret_cast<const double(*)[9]>(extent.data());
+    view.ticket = ticket.data();
+    return view;
+  }
+
+  fluid::FluidSamples samples() {
+    velocitySample.resize(position.size());
+    pressureSample.resize(position.size());
+    vorticitySample.resize(position.size());
+    fractionSample.resize(position.size());
+    fluid::FluidSamples view;
+    view.velocity = reinterpret_cast<double(*)[3]>(velocitySample.data());
+    view.fraction = fractionSample.data();
+    view.pressure_gradient = reinterpret_cast<double(*)[3]>(pressureSample.data());
+    view.vorticity = reinterpret_cast<double(*)[3]>(vorticitySample.data());
+    return view;
+  }
+};
+
+/// All over the annulus, up to the walls and across the periodic planes.
+Scene scattered(int count) {
+  Scene scene;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(0, 1);
+  while (scene.dealt < count) {
+    const double x = kHole * (2 * unit(random) - 1), y = kHole * (2 * unit(random) - 1);
+    if (std::hypot(x, y) < kHole && std::hypot(x, y + kOffset) > kPipe)
+      scene.add(x, y, kLength * unit(random), random);
+  }
+  return scene;
+}
+
+/// Grains on a close lattice in the narrow gap: more than thin cells hold by themselves.
+Scene packed() {
+  Scene scene;
+  std::mt19937 random(11);
+  for (double x = -0.015; x < 0.015; x += kDiameter)
+    for (double y = -0.062; y < -0.045; y += kDiameter)
+      for (double z = 0; z < kLength; z += kDiameter)
+        if (std::hypot(x, y) < kHole && std::hypot(x, y + kOffset) > kPipe)
+          scene.add(x, y, z, random);
+  return scene;
+}
+
+ExchangeSettings settingsOf(VoidFraction method) {
+  ExchangeSettings settings;
+  settings.method = method;
+  settings.length = method == VoidFraction::gaussian ? kDiameter : 3 * kDiameter;
+  settings.tolerance = 1e-13;
+  return settings;
+}
+
+const VoidFraction kMethods[] = {VoidFraction::centre, VoidFraction::divided, VoidFraction::gaussian,
+                                 VoidFraction::diffusion};
+
+Foam::tmp<Foam::volVectorField> fieldOf(const std::function<Foam::vector(const Foam::point&)>& f) {
+  using namespace Foam;
+  auto field = tmp<volVectorField>(new volVectorField(IOobject("f", sharedMesh->time().timeName(), *sharedMesh),
+                                                      *sharedMesh, dimensionedVector("0", dimVelocity, Zero)));
+  forAll(field(), celli) field.ref()[celli] = f(sharedMesh->C()[celli]);
+  for (auto& patch : field.ref().boundaryFieldRef())
+    if (!patch.coupled())
+      forAll(patch, i) patch[i] = f(patch.patch().Cf()[i]);
+  field.ref().correctBoundaryConditions();
+  return field;
+}
+
+void checkBalances(Scene scene, bool clusters) {
+  for (const VoidFraction method : kMethods) {
+    particleExchange exchange(*sharedMesh, settingsOf(method));
+    Foam::scalarField solid, drag;
+    Foam::vectorField force;
+    const link::ParticleArrays particles = scene.arrays(clusters);
+    std::fill(scene.ticket.begin(), scene.ticket.end(), link::Ticket{});
+    const auto u = fieldOf([](const Foam::point& x) { return Foam::vector(std::sin(50 * x.x()), x.y(), 1); });
+    const Foam::vectorField gradient(u().primitiveField() * 1000.0);
+    Foam::volScalarField alpha(Foam::IOobject("alpha", sharedMesh->time().timeName(), *sharedMesh), *sharedMesh,
+                               Foam::dimensionedScalar("1", Foam::dimless, 1), "zeroGradient");
+    // Twice: the second time the particles are found from their tickets.
+    for (int meeting = 0; meeting < 2; ++meeting) {
+      exchange.deposit(particles, kElapsed, solid, &force, &drag);
+      EXPECT_GE(Foam::gMin(solid), -1e-12);
+      EXPECT_TRUE(exchange.balance().fits);
+      EXPECT_LE(Foam::gMax(solid), exchange.settings().mostSolid * 1.01);
+      alpha.primitiveFieldRef() = 1.0 - solid;
+      alpha.correctBoundaryConditions();
+      FlowFields flow;
+      flow.velocity = &u();
+      flow.fraction = &alpha;
+      flow.pressureGradient = &gradient;
+      exchange.sample(flow, particles, scene.samples());
+      const ExchangeBalance& balance = exchange.balance();
+      EXPECT_NEAR(balance.meshVolume / balance.particleVolume, 1.0, 1e-12);
+      EXPECT_NEAR(Foam::gSum(Foam::scalarField(solid * sharedMesh->V())) / balance.particleVolume, 1.0, 1e-12);
+      const Foam::vector forceSum(Foam::gSum(Foam::vectorField(force * sharedMesh->V())));
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_NEAR(balance.meshImpulse[k], balance.particleImpulse[k], 1e-12 * balance.impulseScale);
+        // What the fluid receives is the opposite of what the particles got.
+        EXPECT_NEAR(-forceSum[k] * kElapsed, balance.particleImpulse[k], 1e-12 * balance.impulseScale);
+        EXPECT_NEAR(balance.meshPressureForce[k], balance.particlePressureForce[k], 1e-11 * balance.pressureForceScale);
+      }
+      EXPECT_EQ(exchange.present().searched(), meeting == 0 ? scene.position.size() : 0u);
+    }
+  }
+}
+
+} // namespace
+
+TEST(Exchange, VolumeImpulseAndPressureForceBalanceForScatteredSpheres) {
+  checkBalances(scattered(400), false);
+}
+TEST(Exchange, VolumeImpulseAndPressureForceBalanceForClusters) {
+  checkBalances(scattered(200), true);
+}
+TEST(Exchange, VolumeImpulseAndPressureForceBalanceForAPackedBedInThinCells) {
+  checkBalances(packed(), false);
+}
+
+TEST(Exchange, EveryGuestLiesInItsCellOrBehindAWall) {
+  Scene scene = scattered(500);
+  // A second set of points, displaced by several cells, walks there from the first one's cells.
+  for (int round = 0; round < 3; ++round) {
+    particleExchange exchange(*sharedMesh, settingsOf(VoidFraction::centre));
+    Foam::scalarField solid;
+    exchange.deposit(scene.arrays(), 0, solid, nullptr, nullptr);
+    int here = 0, inside = 0;
+    for (const Guest& guest : exchange.present().here()) {
+      const Foam::point x(guest.at.position[0], guest.at.position[1], guest.at.position[2]);
+      const bool nearWall =
+          std::hypot(x.x(), x.y()) > 0.99 * kHole || std::hypot(x.x(), x.y() + kOffset) < 1.02 * kPipe;
+      ++here;
+      inside += nearWall || sharedMesh->pointInCell(x, guest.at.cell, Foam::polyMesh::FACE_PLANES);
+    }
+    EXPECT_EQ(inside, here);
+    EXPECT_EQ(Foam::returnReduce(here, Foam::sumOp<int>()), 500);
+    for (auto& x : scene.position) {
+      const double angle = 0.4;
+      x = {x[0] * std::cos(angle) - x[1] * std::sin(angle), x[0] * std::sin(angle) + x[1] * std::cos(angle),
+           std::fmod(x[2] + 0.37 * kLength, kLength)};
+      // Turning about the hole's axis may lead into the pipe: then to the other side of the hole.
+      if (std::hypot(x[0], x[1] + kOffset) < kPipe)
+        x[1] = 0.05;
+    }
+  }
+}
+
+TEST(Exchange, LinearFieldsAreSampledExactly) {
+  Scene scene = scattered(300);
+  particleExchange exchange(*sharedMesh, settingsOf(VoidFraction::centre));
+  Foam::scalarField solid;
+  const link::ParticleArrays particles = scene.arrays();
+  exchange.deposit(particles, 0, solid, nullptr, nullptr);
+  // Uniform along the periodic direction; curl = (0 0 b - a).
+  const double a = 30, b = -70;
+  const auto u =
+      fieldOf([=](const Foam::point& x) { return Foam::vector(a * x.y() + 1, b * x.x() - 2, 5 * x.x() + x.y()); });
+  FlowFields flow;
+  flow.velocity = &u();
+  fluid::FluidSamples samples = scene.samples();
+  samples.fraction = nullptr;
+  samples.pressure_gradient = nullptr;
+  exchange.sample(flow, particles, samples);
+  int checked = 0;
+  for (std::size_t i = 0; i < scene.position.size(); ++i) {
+    const auto& x = scene.position[i];
+    // The host's least-squares gradient sees only the part of a wall face's distance along its normal: not in wall
+    // cells, which take a sixth of the gap.
+    const double toHole = kHole - std::hypot(x[0], x[1]), toPipe = std::hypot(x[0], x[1] + kOffset) - kPipe;
+    if (std::min(toHole, toPipe) < 0.25 * (toHole + toPipe))
+      continue;
+    ++checked;
+    EXPECT_NEAR(scene.velocitySample[i][0], a * x[1] + 1, 1e-9);
+    EXPECT_NEAR(scene.velocitySample[i][1], b * x[0] - 2, 1e-9);
+    EXPECT_NEAR(scene.velocitySample[i][2], 5 * x[0] + x[1], 1e-9);
+    EXPECT_NEAR(scene.vorticitySample[i][2], b - a, 1e-7);
+    EXPECT_NEAR(scene.vorticitySample[i][0], 1, 1e-7);
+    EXPECT_NEAR(scene.vorticitySample[i][1], -5, 1e-7);
+  }
+  EXPECT_GT(Foam::returnReduce(checked, Foam::sumOp<int>()), 100);
+}
+
+// One implicit step over T spreads a point with variance 2 T = length^2 / 2 per direction, as long as it meets no wall.
+TEST(Exchange, DiffusionSpreadsByItsLengthAlongTheHole) {
+  Scene scene;
+  std::mt19937 random(3);
+  scene.add(0.0, 0.0335, 0.5 * kLength, random);
+  ExchangeSettings settings = settingsOf(VoidFraction::diffusion);
+  settings.length = 0.01;
+  particleExchange exchange(*sharedMesh, settings);
+  Foam::scalarField solid;
+  exchange.deposit(scene.arrays(), 0, solid, nullptr, nullptr);
+  const Foam::scalarField z(sharedMesh->C().primitiveField().component(Foam::vector::Z));
+  const Foam::scalarField amount(solid * sharedMesh->V());
+  const double cell = kLength / 10;
+  const double mean = Foam::gSum(Foam::scalarField(z * amount)) / Foam::gSum(amount);
+  const double variance = Foam::gSum(Foam::scalarField(Foam::sqr(z - mean) * amount)) / Foam::gSum(amount);
+  // Along z the second moment of the discrete solution is exact, apart from the images of the periodic section.
+  EXPECT_NEAR(variance, 0.5 * settings.length * settings.length, 0.01 * settings.length * settings.length);
+  EXPECT_NEAR(mean, 0.5 * kLength, 0.51 * cell);
+}
+
+TEST(Exchange, SettingsThatMakeNoSenseAreNamed) {
+  const auto message = [](ExchangeSettings settings) -> std::string {
+    try {
+      particleExchange exchange(*sharedMesh, settings);
+    } catch (const std::invalid_argument& problem) {
+      return problem.what();
+    }
+    return "";
+  };
+  ExchangeSettings settings = settingsOf(VoidFraction::diffusion);
+  settings.length = 0;
+  EXPECT_NE(message(settings).find("length"), std::string::npos);
+  settings = settingsOf(VoidFraction::centre);
+  settings.mostSolid = 1.5;
+  EXPECT_NE(message(settings).find("mostSolid is 1.5"), std::string::npos);
+  settings = settingsOf(VoidFraction::centre);
+  settings.fractionFloor = -0.1;
+  EXPECT_NE(message(settings).find("fractionFloor is -0.1"), std::string::npos);
+}
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  ::testing::InitGoogleTest(&argc, argv);
+  int size = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  std::vector<std::string> words = {argv[0], "-case", ECCENTRA_TEST_MESH};
+  if (size > 1)
+    words.push_back("-parallel");
+  std::vector<char*> arguments;
+  for (std::string& word : words)
+    arguments.push_back(word.data());
+  int count = static_cast<int>(arguments.size());
+  char** values = arguments.data();
+  // Lives until the process ends: its destructor would end it with success.
+  Foam::argList::noBanner();
+  auto* args = new Foam::argList(count, values);
+  auto* time = new Foam::Time(Foam::Time::controlDictName, *args);
+  sharedMesh =
+      new Foam::fvMesh(Foam::IOobject(Foam::fvMesh::defaultRegion, time->timeName(), *time, Foam::IOobject::MUST_READ));
+  int failed = RUN_ALL_TESTS();
+  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  MPI_Finalize();
+  return failed;
+}
