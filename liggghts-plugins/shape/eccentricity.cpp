@@ -14,10 +14,8 @@
 namespace eccentra::shape {
 namespace {
 
-constexpr int direction_count = 50000; ///< mean good to 1e-4, spacing of directions 0.016 rad
-/// Pairs of clusters: mean good to 2e-3 with the most, 1e-2 with the fewest; in between, as many as the number of
-/// visits to pairs of sub-spheres allows.
-constexpr double fewest_cluster_pairs = 2000, most_cluster_pairs = 20000, most_cluster_visits = 1e8;
+constexpr int direction_count = 50000;      ///< mean good to 1e-4, spacing of directions 0.016 rad
+constexpr int cluster_pair_count = 20000;   ///< mean good to 2e-3
 constexpr int surface_point_count = 400000; ///< over all spheres, before the covered ones are dropped
 /// Search for an extreme: starts, the first step [rad], and where it ends [rad].
 constexpr int search_starts = 24;
@@ -37,6 +35,21 @@ struct Touchable {
     }
   }
 };
+
+/// How far a sub-sphere reaches in some direction.
+struct Front {
+  double reach;
+  int index;
+};
+
+/// Sub-spheres in the order in which they lead in `direction`.
+void sort_by_front(const Touchable& t, const Eigen::Vector3d& direction, std::vector<Front>& front) {
+  front.clear();
+  for (int k = 0; k < t.radius.size(); ++k)
+    front.push_back({t.centre.col(k).dot(direction) + t.radius[k], k});
+  std::sort(front.begin(), front.end(),
+            [](const Front& x, const Front& y) { return x.reach != y.reach ? x.reach > y.reach : x.index < y.index; });
+}
 
 double plane_eccentricity(const Touchable& t, const Eigen::Vector3d& normal) {
   int touched = 0;
@@ -184,35 +197,31 @@ EccentricityDistribution eccentricity_surface(const ClusterShape& shape) {
 EccentricityDistribution eccentricity_cluster(const ClusterShape& shape, const ClusterShape& other) {
   const Touchable a(shape), b(other);
   const double unit = shape.equivalent_radius();
-  const int pairs = static_cast<int>(std::clamp<double>(
-      most_cluster_visits / (static_cast<double>(a.radius.size()) * static_cast<double>(b.radius.size())),
-      fewest_cluster_pairs, most_cluster_pairs));
-  const Eigen::ArrayXd b_squared = b.centre.colwise().squaredNorm().transpose().array();
-  const double never = -std::numeric_limits<double>::max();
-  std::vector<double> samples(pairs);
-  Eigen::ArrayXd along, rest, distance;
-  for (int s = 0; s < pairs; ++s) {
+  std::vector<double> samples(cluster_pair_count);
+  std::vector<Front> a_front, b_front;
+  for (int s = 0; s < cluster_pair_count; ++s) {
     const DirectionAndRotation way = even_direction_and_rotation(s);
-    const Eigen::Matrix3Xd turned = way.rotation.toRotationMatrix() * b.centre;
-    const Eigen::ArrayXd b_along = (turned.transpose() * way.direction).array();
-    double farthest = never;
-    for (int i = 0; i < a.radius.size(); ++i) {
-      // Centres meet at `reach` when the other cluster's centre of mass is at distance * direction.
-      const Eigen::Vector3d own = a.centre.col(i);
-      along = own.dot(way.direction) - b_along;
-      rest = (a.radius[i] + b.radius).square() - own.squaredNorm() - b_squared +
-             2 * (turned.transpose() * own).array() + along.square();
-      distance = (rest > 0).select(along + rest.max(0).sqrt(), never);
-      int j = -1;
-      for (int k = 0; k < distance.size(); ++k)
-        if (distance[k] > farthest) {
-          farthest = distance[k];
-          j = k;
-        }
-      if (j < 0)
-        continue;
-      const Eigen::Vector3d between = farthest * way.direction + turned.col(j) - own;
-      samples[s] = own.cross(between).norm() / ((a.radius[i] + b.radius[j]) * unit);
+    const Eigen::Matrix3d turn = way.rotation.toRotationMatrix();
+    sort_by_front(a, way.direction, a_front);
+    sort_by_front(b, -(turn.transpose() * way.direction), b_front);
+    // The other cluster's centre of mass is at distance * direction when two sub-spheres touch; no pair can touch
+    // farther out than its two fronts together, and the first contact is the farthest.
+    double farthest = -std::numeric_limits<double>::max();
+    for (const Front& fa : a_front) {
+      if (fa.reach + b_front[0].reach <= farthest)
+        break;
+      const Eigen::Vector3d own = a.centre.col(fa.index);
+      for (const Front& fb : b_front) {
+        if (fa.reach + fb.reach <= farthest)
+          break;
+        const Eigen::Vector3d offset = own - turn * b.centre.col(fb.index);
+        const double along = offset.dot(way.direction), touch = a.radius[fa.index] + b.radius[fb.index];
+        const double rest = touch * touch - offset.squaredNorm() + along * along;
+        if (rest <= 0 || along + std::sqrt(rest) <= farthest)
+          continue;
+        farthest = along + std::sqrt(rest);
+        samples[s] = own.cross(farthest * way.direction - offset).norm() / (touch * unit);
+      }
     }
   }
   const auto [low, high] = std::minmax_element(samples.begin(), samples.end());

@@ -11,6 +11,7 @@
 #include <vtkCamera.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkImageResize.h>
+#include <vtkImageSincInterpolator.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
 #include <vtkObject.h>
@@ -140,6 +141,7 @@ void add_scale_bar(vtkRenderWindow* window, double largest) {
 
   bar->SetOrientationToHorizontal();
   bar->SetNumberOfLabels(5);
+  bar->SetMaximumNumberOfColors(256);
   bar->SetLabelFormat("%.2f");
   bar->SetWidth(0.5);
   bar->SetHeight(0.06);
@@ -216,6 +218,9 @@ void write_picture(const std::vector<ClusterShape>& shapes, const std::string& p
   grab->ReadFrontBufferOff();
   vtkNew<vtkImageResize> shrink;
   shrink->SetInputConnection(grab->GetOutputPort());
+  vtkNew<vtkImageSincInterpolator> smooth;
+  smooth->AntialiasingOn();
+  shrink->SetInterpolator(smooth);
   shrink->SetOutputDimensions(panels * panel_width, panel_height, 1);
   vtkNew<vtkPNGWriter> writer;
   writer->SetFileName(path.c_str());
