@@ -81,6 +81,16 @@ TEST(ClusterShapeTool, WritesAClumpThatItReadsBack) {
   EXPECT_NEAR(json_of("made.clump --scale 2")["equivalent_radius"].get<double>(), 2e-3, 1e-12);
 }
 
+TEST(ClusterShapeTool, UnderstandsTheWordsOfAScript) {
+  EXPECT_EQ(run("cube 8 diameter 2e-3 --json").text, run("cube 8 --diameter 2e-3 --json").text);
+  eccentra::test::write_stl("box.stl", eccentra::test::box(Eigen::Vector3d(2, 1, 1), Eigen::Vector3d(1, 0, 0)));
+  EXPECT_EQ(run("stl box.stl spheres 5 mass solid resolution 16 --json").text,
+            run("stl box.stl --spheres 5 --mass solid --resolution 16 --json").text);
+  EXPECT_EQ(run("cube 8 diameter").code, 1);
+  EXPECT_EQ(run("cube 8 diameter -2").code, 1);
+  EXPECT_EQ(run("stl box.stl spheres 5 mass air").code, 1);
+}
+
 TEST(ClusterShapeTool, CentreIsThatOfTheFile) {
   std::ofstream("moved.clump") << "1 2 3 0.5\n1.5 2 3 0.5\n";
   const nlohmann::json j = json_of("moved.clump");

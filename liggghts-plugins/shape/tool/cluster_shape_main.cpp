@@ -165,7 +165,36 @@ void report_stl(const ShapeArguments& a, const std::string& path) {
   write_files(a, {shape});
 }
 
-void run(const ShapeArguments& a) {
+/// Takes words that a LIGGGHTS script would have behind a shape ("diameter 6.35e-3", "spheres 50") for the options they
+/// name.
+ShapeArguments with_script_words(ShapeArguments a) {
+  std::vector<std::string> rest;
+  for (std::size_t k = 0; k < a.words.size(); ++k) {
+    const std::string key = a.words[k];
+    const bool known = key == "diameter" || key == "scale" || key == "spheres" || key == "error" ||
+                       key == "resolution" || key == "mass";
+    if (!known) {
+      rest.push_back(key);
+      continue;
+    }
+    const std::string& value = word_at(a.words, ++k, "a value after '" + key + "'");
+    if (key == "mass" && value != "solid" && value != "union")
+      throw std::invalid_argument("mass is '" + value + "': choose solid or union");
+    if (key == "mass")
+      a.mass = value;
+    else if (key == "spheres")
+      a.spheres = static_cast<int>(whole_number(value, key));
+    else if (key == "resolution")
+      a.resolution = static_cast<int>(whole_number(value, key));
+    else
+      (key == "diameter" ? a.diameter : key == "scale" ? a.scale : a.error) = positive_number(value, key);
+  }
+  a.words = rest;
+  return a;
+}
+
+void run(const ShapeArguments& typed) {
+  const ShapeArguments a = typed.words[0] == "compare" ? typed : with_script_words(typed);
   if (a.words[0] == "list") {
     require_end(a.words, 1);
     fmt::print("{}", list_text());
