@@ -230,7 +230,7 @@ link::DemTotals FixFluidCouple::totals() const {
     double speed = 0;
     for (int k = 0; k < 3; ++k) {
       mine[kImpulse + k] += reaction.impulse[i][k];
-      mine[kMomentum + k] += atom->rmass[i] * atom->v[i][k];
+      mine[kMomentum + k] += atom->rmass[i] * atom->v[i][k] + 0.5 * update->dt * atom->f[i][k];
       mine[kPosition + k] += volume_[i] * position_[3 * std::size_t(i) + k];
       mine[kVelocity + k] += volume_[i] * atom->v[i][k];
       speed += atom->v[i][k] * atom->v[i][k];

@@ -44,7 +44,7 @@ struct DemTotals {
   double volume = 0;                     ///< [m3]
   double mass = 0;                       ///< [kg]
   double impulse[3] = {0, 0, 0};         ///< sum of ParticleArrays::impulse [N s]
-  double momentum[3] = {0, 0, 0};        ///< sum m v [kg m/s]
+  double momentum[3] = {0, 0, 0};        ///< sum m v [kg m/s], with the half kick that the integrator still owes
   double volume_position[3] = {0, 0, 0}; ///< sum V x [m4]
   double volume_velocity[3] = {0, 0, 0}; ///< sum V v [m4/s]
   double fastest = 0;                    ///< largest |v| [m/s]

@@ -134,6 +134,8 @@ bool coupledRun::wanted(const Time& time) {
 }
 
 void coupledRun::run() {
+  refuseUnknownKeywords(properties_, {"link", "demScript", "demLog", "voidFraction", "length", "momentum", "mostSolid",
+                                      "fractionFloor", "tolerance", "report", "runIn"});
   const word link(properties_.getOrDefault<word>("link", "solver"));
   if (link != "solver")
     throw inputError(properties_, "link", link, "use solver");

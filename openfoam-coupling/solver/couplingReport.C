@@ -55,8 +55,9 @@ couplingReport::couplingReport(const fvMesh& mesh, const link::DemTerms& dem, in
              "height,"
              "bed_height,bed_area,fastest_particle,least_fraction,courant,continuity_error,volume_error,impulse_error,"
              "pressure_error,dem_seconds,fluid_seconds,exchange_seconds,link_seconds,"
-             "inserted,left,inserted_mass,mass,global_continuity_error\n";
-    csv_->precision(10);
+             "inserted,left,inserted_mass,mass,global_continuity_error,"
+             "momentum_x,momentum_y,momentum_z,fastest_fluid\n";
+    csv_->precision(15);
   }
 }
 
@@ -71,6 +72,17 @@ double couplingReport::pressureDrop(const averagedFlow& flow) const {
     return gSum(scalarField(areas * flow.p().boundaryField()[patch])) / gSum(areas);
   };
   return flow.rho() * (mean(inlet) - mean(outlet)) / length_;
+}
+
+// What is on its way from one side to the other counts: the force that semi-implicit drag held back, and the pressure
+// force that the particles receive until the next meeting.
+vector couplingReport::totalMomentum(averagedFlow& flow, const exchange::particleExchange& exchange,
+                                     const link::Meeting& meeting) const {
+  const scalar step = mesh_.time().deltaTValue();
+  const vectorField& withheld = flow.withheldForce().primitiveField();
+  const vectorField perVolume(flow.alpha().primitiveField() * flow.U().primitiveField() + step * withheld);
+  const vector fluid(flow.rho() * gSum(vectorField(mesh_.V() * perVolume)));
+  return vectorOf(meeting.totals.momentum) + fluid - step * vectorOf(exchange.balance().particlePressureForce.data());
 }
 
 couplingReport::Bed couplingReport::bed(const volScalarField& alpha) const {
@@ -110,6 +122,8 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
   const double meanVelocity = flow.superficialVelocity() & axis_;
   const double courant = flow.CourantNo();
   const double continuity = flow.continuityError();
+  const vector momentum(totalMomentum(flow, exchange, meeting));
+  const double fastestFluid = gMax(mag(flow.U().primitiveField())());
   const double globalContinuity = flow.globalContinuityError();
   if (initially_ < 0)
     initially_ = totals.particles - totals.inserted;
@@ -138,7 +152,8 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
   for (const double part : parts)
     *csv_ << ',' << part;
   *csv_ << ',' << totals.inserted << ',' << left << ',' << totals.inserted_mass << ',' << totals.mass << ','
-        << globalContinuity << std::endl;
+        << globalContinuity << ',' << momentum.x() << ',' << momentum.y() << ',' << momentum.z() << ',' << fastestFluid
+        << std::endl;
 
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   const double done = meeting.steps_total > 0 ? double(meeting.steps_done) / double(meeting.steps_total) : 0.0;
