@@ -86,7 +86,7 @@ TEST(Inscribed, BallIsOneSphere) {
   const std::vector<Sphere> spheres = inscribed_spheres(solid, {0, 0.02, 24});
   EXPECT_EQ(spheres.size(), 1u);
   EXPECT_NEAR(spheres[0].radius, 1, 0.01); // the facets lie below the sphere
-  const FitQuality fit = fit_quality(solid, spheres, MassOf::spheres);
+  const FitQuality fit = fit_quality(solid, solid_eccentricity(solid), spheres, MassOf::spheres);
   EXPECT_LT(fit.volume, 0.02);
   EXPECT_LT(fit.max_distance, 0.01);
 }
@@ -107,7 +107,7 @@ TEST_P(Filled, SpheresStayInsideConnectedAndImprove) {
   for (const int count : {1, 4, 16, 64}) {
     const std::vector<Sphere> part(spheres.begin(), spheres.begin() + count);
     EXPECT_NO_THROW(require_connected(part));
-    const FitQuality fit = fit_quality(solid, part, MassOf::spheres);
+    const FitQuality fit = fit_quality(solid, solid_eccentricity(solid), part, MassOf::spheres);
     EXPECT_LT(fit.volume, before);
     EXPECT_LT(fit.mean_distance, distance_before);
     EXPECT_GT(fit.volume, 0);
@@ -127,9 +127,9 @@ TEST(Inscribed, StopsAtTheErrorAskedFor) {
   const Solid solid("cube.stl", 1);
   const double error = 0.2;
   std::vector<Sphere> spheres = inscribed_spheres(solid, {0, error, 24});
-  EXPECT_LE(fit_quality(solid, spheres, MassOf::spheres).volume, error);
+  EXPECT_LE(fit_quality(solid, solid_eccentricity(solid), spheres, MassOf::spheres).volume, error);
   spheres.pop_back();
-  EXPECT_GT(fit_quality(solid, spheres, MassOf::spheres).volume, error);
+  EXPECT_GT(fit_quality(solid, solid_eccentricity(solid), spheres, MassOf::spheres).volume, error);
 }
 
 TEST(StlWords, MassOfTheSolidOrOfTheSpheres) {

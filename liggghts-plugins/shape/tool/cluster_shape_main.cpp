@@ -132,7 +132,7 @@ void report_stl(const ShapeArguments& a, const std::string& path) {
   const SolidEccentricity own = solid_eccentricity(solid);
   std::vector<FitQuality> fits;
   for (const int count : ladder(static_cast<int>(spheres.size())))
-    fits.push_back(fit_quality(solid, {spheres.begin(), spheres.begin() + count}, mass_of));
+    fits.push_back(fit_quality(solid, own, {spheres.begin(), spheres.begin() + count}, mass_of));
   if (a.property_lines) {
     fmt::print("{}", property_lines(report, {a.partner, a.estimate}, {a.types, a.own_type, a.mu_r}));
   } else if (a.json) {

@@ -74,8 +74,10 @@ class Filling {
       for (int j = 0; j < n[1]; ++j)
         for (int k = 0; k < n[2]; ++k) {
           const double depth = -solid.distance(grid.point(i, j, k)) / grid.spacing;
-          if (depth <= 0)
+          if (depth <= 0) { // so far from the solid, the next points are outside, too
+            k += std::max(0, static_cast<int>(std::ceil(-depth)) - 1);
             continue;
+          }
           open_[grid.index(i, j, k)] = 1;
           ++inside_;
           // A point has a cell of its own, half a spacing either way: smaller spheres have no measurable gain.

@@ -114,7 +114,8 @@ SolidEccentricity solid_eccentricity(const Solid& solid) {
   return e;
 }
 
-FitQuality fit_quality(const Solid& solid, const std::vector<Sphere>& spheres, MassOf mass_of) {
+FitQuality fit_quality(const Solid& solid, const SolidEccentricity& own, const std::vector<Sphere>& spheres,
+                       MassOf mass_of) {
   const MassProperties &p = solid.properties(), q = measure_union(spheres).properties;
   const double unit = equivalent_radius(p.volume);
   FitQuality fit{};
@@ -130,7 +131,6 @@ FitQuality fit_quality(const Solid& solid, const std::vector<Sphere>& spheres, M
     fit.mean_distance += distance / static_cast<double>(points.size());
     fit.max_distance = std::max(fit.max_distance, distance);
   }
-  const SolidEccentricity own = solid_eccentricity(solid);
   const EccentricityDistribution plane = eccentricity_plane(shape_of_solid(solid, spheres, mass_of, 0));
   fit.mean_eccentricity = plane.mean() - own.mean;
   fit.max_eccentricity = plane.max() - own.max;

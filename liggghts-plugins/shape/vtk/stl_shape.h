@@ -28,13 +28,16 @@ struct FitQuality {
   double mean_eccentricity;           ///< delta_e / R_eq on a plane: value of the spheres less that of the solid
   double max_eccentricity;
 };
-FitQuality fit_quality(const Solid& solid, const std::vector<Sphere>& spheres, MassOf mass_of);
 
 /// delta_e / R_eq of the solid itself on a plane (contact at its outermost vertex).
 struct SolidEccentricity {
   double mean, max;
 };
 SolidEccentricity solid_eccentricity(const Solid& solid);
+
+/// `own` is solid_eccentricity(solid), which is worth keeping for the next call.
+FitQuality fit_quality(const Solid& solid, const SolidEccentricity& own, const std::vector<Sphere>& spheres,
+                       MassOf mass_of);
 
 /// Makes `stl NAME spheres N [scale S] [mass solid|union] [resolution M]` known to make_shape. Call once at start.
 void install_stl_words();
