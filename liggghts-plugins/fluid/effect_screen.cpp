@@ -157,6 +157,12 @@ std::string EffectScreen::table(const EffectList& effects, const std::vector<boo
            m.to_drag.quantile(kQuantile), m.to_drag.largest(), m.to_reference.quantile(kQuantile), nanoseconds[e],
            keep[e] ? "stays on" : "switched off");
   }
+  double all = 0.0, kept = 0.0;
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    all += nanoseconds[e];
+    kept += keep[e] ? nanoseconds[e] : 0.0;
+  }
+  append(text, "  what stays on costs %.1f of %.1f ns per particle and step\n", kept, all);
   text +=
       "  (torques: of weight or drag times R; what decides is the ratio to the larger of weight and drag, for a torque"
       " to all other torques)\n"

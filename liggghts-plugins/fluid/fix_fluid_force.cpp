@@ -133,6 +133,13 @@ std::array<double, 3> FixFluidForce::received(int i) {
   return {impulse[0] - owed_ * last[0], impulse[1] - owed_ * last[1], impulse[2] - owed_ * last[2]};
 }
 
+bool FixFluidForce::acts(const std::string& effect) const {
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    if (acting_[e] && effect == effects_[e]->slot())
+      return true;
+  return false;
+}
+
 void FixFluidForce::announce_source(const std::string& fix_id) {
   if (std::find(sources_.begin(), sources_.end(), fix_id) == sources_.end())
     sources_.push_back(fix_id);

@@ -48,6 +48,10 @@ class FixFluidForce : public LAMMPS_NS::Fix {
   /// The fix that fills samples(), by id; a second one is an error at set-up.
   void announce_source(const std::string& fix_id);
 
+  /// True if this effect acts now: drag, shear_lift, rotational_lift, drag_torque, pressure_gradient, viscous_stress,
+  /// buoyancy.
+  bool acts(const std::string& effect) const;
+
   const Rheology& rheology() const { return options_.rheology; }
   double rho_f() const { return options_.rheology.density; }
   /// Volume of local atom i [m3]: of the union of a cluster's spheres, not of its bounding sphere.

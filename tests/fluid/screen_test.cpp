@@ -5,12 +5,15 @@
 #include "fluid/log_histogram.h"
 
 #include "fluid_scene.h"
+#include "host/style_registry.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <ostream>
+#include <sstream>
 
 using namespace eccentra::test;
 using namespace eccentra::fluid;
@@ -21,8 +24,8 @@ namespace {
 std::string scene(const std::string& flow, const std::string& words,
                   const std::string& fluid = "herschel_bulkley 1 0.28 0.65") {
   return scene_head() + "lattice sc 0.05\ncreate_atoms 1 box\nset group all diameter 0.00635 density 2619\n" +
-         gravity() + "timestep 1e-4\nfix integrate all nve/sphere\nfix mud all fluid/force rheology " + fluid +
-         " density 1000 " + words + "\nfix flow all fluid/uniform velocity 0 0 0 " + flow + "\n";
+         gravity() + "timestep 1e-4\nfix integrate all nve/sphere\nfix mud all fluid/force density 1000 rheology " +
+         fluid + " " + words + "\nfix flow all fluid/uniform velocity 0 0 0 " + flow + "\n";
 }
 
 /// Mean velocity of all spheres.
@@ -39,16 +42,17 @@ unsigned needs(LiggghtsSession& session) {
   return FixFluidForce::find(&session.lammps())->needs();
 }
 
-/// In a dilute scene the rotational drag is the only torque, so a screen keeps it and its vorticity with it.
-constexpr const char* kNoTorque = "drag_torque none ";
+bool acts(LiggghtsSession& session, const std::string& effect) {
+  return FixFluidForce::find(&session.lammps())->acts(effect);
+}
 
 struct Scene {
   const char* name;
-  std::string flow;
-  std::string fluid;
-  unsigned quantity; ///< the one that tells whether the effect stays
-  std::string others_off;
+  const char* effect;
   bool decides;
+  std::string fluid; ///< rheology, and density where it is not that of water
+  std::string flow;
+  std::string words; ///< what is not up to the screen
 };
 
 void PrintTo(const Scene& scene, std::ostream* stream) {
@@ -65,15 +69,15 @@ TEST_P(Screen, KeepsWhatDecidesAndStaysWithinTwiceTheTolerance) {
     LiggghtsSession session;
     const std::string everything = "drag chien shear_lift saffman_mei rotational_lift oesterle_bui_dinh "
                                    "pressure_gradient on viscous_stress on drag_torque dennis ";
-    session.script(scene(c.flow, everything + c.others_off, c.fluid) + "run 4000\n");
+    session.script(scene(c.flow, everything + c.words, c.fluid) + "run 4000\n");
     all = mean_velocity(session);
   }
   {
     LiggghtsSession session;
-    session.script(scene(c.flow, c.others_off + "screen 0.01 screen_steps 2000 screen_recheck 0", c.fluid) + "run 1\n");
-    EXPECT_TRUE(needs(session) & c.quantity) << "everything is on while the screen looks";
+    session.script(scene(c.flow, c.words + " screen 0.01 screen_steps 2000 screen_recheck 0", c.fluid) + "run 1\n");
+    EXPECT_TRUE(acts(session, c.effect)) << "everything is on while the screen looks";
     session.command("run 3999");
-    EXPECT_EQ(bool(needs(session) & c.quantity), c.decides);
+    EXPECT_EQ(acts(session, c.effect), c.decides);
     screened = mean_velocity(session);
   }
   const double size = std::sqrt(all[0] * all[0] + all[1] * all[1] + all[2] * all[2]);
@@ -82,23 +86,38 @@ TEST_P(Screen, KeepsWhatDecidesAndStaysWithinTwiceTheTolerance) {
 }
 
 const std::string kMud = "herschel_bulkley 1 0.28 0.65", kOil = "newtonian 0.1";
+const std::string kAir = "newtonian 2e-5 density 1.2", kGas = "newtonian 1e-5 density 0.1";
+// u_z grows along x: the spheres lag behind a sheared flow.
+const std::string kShear = "velocity_gradient 0 0 0 0 0 0 20 0 0 origin 0.05 0 0";
+const std::string kWeakShear = "velocity_gradient 0 0 0 0 0 0 0.001 0 0 origin 0.05 0 0";
+// Spheres that do not turn with the flow (no rotational drag) feel their spin relative to it.
+const std::string kNoTorque = "drag_torque none";
 INSTANTIATE_TEST_SUITE_P(
     Scenes, Screen,
-    ::testing::Values(Scene{"strong_gradient", "pressure_gradient 0 3000 0", kMud, kPressureGradient, "", true},
-                      Scene{"strong_gradient_in_oil", "pressure_gradient 2000 0 0", kOil, kPressureGradient, "", true},
-                      Scene{"weak_gradient", "pressure_gradient 0 30 0", kMud, kPressureGradient, "", false},
-                      Scene{"weak_gradient_in_oil", "pressure_gradient 0 0 40", kOil, kPressureGradient, "", false},
-                      Scene{"strong_stress", "stress_divergence 1000 0 0", kMud, kStressDivergence, "", true},
-                      Scene{"strong_stress_in_oil", "stress_divergence 0 0 2000", kOil, kStressDivergence, "", true},
-                      Scene{"weak_stress", "stress_divergence 20 0 0", kMud, kStressDivergence, "", false},
-                      Scene{"weak_stress_in_oil", "stress_divergence 20 0 0", kOil, kStressDivergence, "", false},
-                      Scene{"strong_shear", "velocity_gradient 0 0 0 0 0 0 20 0 0 origin 0.05 0 0", kOil, kVorticity,
-                            kNoTorque, true},
-                      Scene{"strong_shear_in_mud", "velocity_gradient 0 0 0 0 0 0 20 0 0 origin 0.05 0 0", kMud,
-                            kVorticity, kNoTorque, true},
-                      Scene{"weak_shear", "velocity_gradient 0 0 0 0 0 0 0.001 0 0 origin 0.05 0 0", kOil, kVorticity,
-                            kNoTorque, false},
-                      Scene{"no_shear", "", kMud, kVorticity, kNoTorque, false}),
+    ::testing::Values(
+        Scene{"gradient_strong_in_mud", "pressure_gradient", true, kMud, "pressure_gradient 0 3000 0", ""},
+        Scene{"gradient_strong_in_oil", "pressure_gradient", true, kOil, "pressure_gradient 2000 0 0", ""},
+        Scene{"gradient_weak_in_mud", "pressure_gradient", false, kMud, "pressure_gradient 0 30 0", ""},
+        Scene{"gradient_weak_in_oil", "pressure_gradient", false, kOil, "pressure_gradient 0 0 40", ""},
+        Scene{"stress_strong_in_mud", "viscous_stress", true, kMud, "stress_divergence 1000 0 0", ""},
+        Scene{"stress_strong_in_oil", "viscous_stress", true, kOil, "stress_divergence 0 0 2000", ""},
+        Scene{"stress_weak_in_mud", "viscous_stress", false, kMud, "stress_divergence 20 0 0", ""},
+        Scene{"stress_weak_in_oil", "viscous_stress", false, kOil, "stress_divergence 20 0 0", ""},
+        Scene{"shear_strong_in_mud", "shear_lift", true, kMud, kShear, kNoTorque},
+        Scene{"shear_strong_in_oil", "shear_lift", true, kOil, kShear, ""},
+        Scene{"shear_weak_in_oil", "shear_lift", false, kOil, kWeakShear, ""},
+        Scene{"shear_none_in_mud", "shear_lift", false, kMud, "", ""},
+        Scene{"spin_strong_in_mud", "rotational_lift", true, kMud, kShear, kNoTorque},
+        Scene{"spin_strong_in_oil", "rotational_lift", true, kOil, kShear, kNoTorque},
+        Scene{"spin_follows_in_oil", "rotational_lift", false, "newtonian 1", kWeakShear, ""},
+        Scene{"spin_none_in_mud", "rotational_lift", false, kMud, "", ""},
+        Scene{"drag_in_mud", "drag", true, kMud, "", ""}, Scene{"drag_in_oil", "drag", true, kOil, "", ""},
+        Scene{"drag_in_thin_gas", "drag", false, kGas, "", ""},
+        Scene{"drag_of_air_on_short_falls", "drag", false, kAir, "", ""},
+        Scene{"buoyancy_in_mud", "buoyancy", true, kMud, "", ""},
+        Scene{"buoyancy_in_oil", "buoyancy", true, kOil, "", ""},
+        Scene{"buoyancy_in_air", "buoyancy", false, kAir, "", ""},
+        Scene{"buoyancy_in_thin_gas", "buoyancy", false, kGas, "", ""}),
     [](const auto& info) { return std::string(info.param.name); });
 
 TEST(ScreenState, RecheckSwitchesOnWhatHasComeToMatter) {
@@ -144,6 +163,51 @@ TEST(ScreenState, SpinStaysDampedWhereItMakesLift) {
                        "shear_lift none screen 0.001 screen_steps 200", kOil) +
                  "run 250\n");
   EXPECT_TRUE(needs(session) & kVorticity);
+}
+
+/// A LIGGGHTS instance of this rank alone.
+class SerialSession {
+ public:
+  SerialSession() {
+    static char name[] = "liggghts", log[] = "-log", screen[] = "-screen", none[] = "none";
+    char* words[] = {name, log, none, screen, none};
+    lammps_ = std::make_unique<LAMMPS_NS::LAMMPS>(5, words, MPI_COMM_SELF);
+    eccentra::host::enter(lammps_.get());
+  }
+  void script(const std::string& lines) {
+    std::istringstream stream(lines);
+    for (std::string line; std::getline(stream, line);)
+      if (line.find_first_not_of(" \t") != std::string::npos)
+        lammps_->input->one(line.c_str());
+  }
+  LAMMPS_NS::LAMMPS& lammps() { return *lammps_; }
+
+ private:
+  std::unique_ptr<LAMMPS_NS::LAMMPS> lammps_;
+};
+
+TEST(ScreenState, VerdictsDoNotDependOnRanks) {
+  const std::string script = scene("velocity_gradient 0 0 0 0 0 0 3 0 0 pressure_gradient 0 150 0",
+                                   "screen 0.01 screen_steps 200 screen_recheck 300") +
+                             "run 800\n";
+  LiggghtsSession together;
+  together.script(script);
+  SerialSession alone;
+  alone.script(script);
+  const FixFluidForce& fluid = *FixFluidForce::find(&alone.lammps());
+  int dropped = 0;
+  for (const char* effect :
+       {"drag", "shear_lift", "rotational_lift", "drag_torque", "pressure_gradient", "viscous_stress", "buoyancy"}) {
+    EXPECT_EQ(acts(together, effect), fluid.acts(effect)) << effect;
+    dropped += !fluid.acts(effect);
+  }
+  EXPECT_GT(dropped, 0);
+  const LAMMPS_NS::Atom& atom = *alone.lammps().atom;
+  for (int i = 0; i < atom.nlocal; ++i) {
+    const int j = together.local(atom.tag[i]);
+    for (int k = 0; j >= 0 && k < 3; ++k)
+      EXPECT_EQ(together.atom().v[j][k], atom.v[i][k]);
+  }
 }
 
 TEST(LogHistogram, QuantilesAreThoseOfTheData) {
