@@ -120,6 +120,26 @@ INSTANTIATE_TEST_SUITE_P(
         Scene{"buoyancy_in_thin_gas", "buoyancy", false, kGas, "", ""}),
     [](const auto& info) { return std::string(info.param.name); });
 
+/// A sphere slides on a floor and friction makes it roll: is the fluid's torque worth its price beside that of
+/// friction?
+bool torque_stays(const std::string& fluid, double speed) {
+  LiggghtsSession session;
+  session.script(scene_head("p p f") + "create_atoms 1 single 0.05 0.05 0.003175 units box\n" +
+                 "set group all diameter 0.00635 density 2619\nvelocity all set " + std::to_string(speed) + " 0 0\n" +
+                 gravity() + "timestep 5e-5\nfix integrate all nve/sphere\n" +
+                 "fix floor all wall/gran model hertz tangential history primitive type 1 zplane 0.0\n" +
+                 "fix mud all fluid/force rheology " + fluid + " rotational_lift none screen 0.01 screen_steps 200\n" +
+                 "fix flow all fluid/uniform velocity 0 0 0\nrun 250\n");
+  return acts(session, "drag_torque");
+}
+
+TEST(ScreenState, WeighsTheTorqueOfTheFluidAgainstFriction) {
+  EXPECT_FALSE(torque_stays(kAir, 0.3));
+  EXPECT_FALSE(torque_stays(kGas, 0.5));
+  EXPECT_TRUE(torque_stays("newtonian 10 density 1000", 0.3));
+  EXPECT_TRUE(torque_stays("herschel_bulkley 20 2 0.65 density 1000", 0.5));
+}
+
 TEST(ScreenState, RecheckSwitchesOnWhatHasComeToMatter) {
   LiggghtsSession session;
   session.script("variable gx equal 2000*(step>600)\n" +
