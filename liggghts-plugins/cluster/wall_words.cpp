@@ -172,9 +172,15 @@ WallWords read_wall_words(const std::vector<std::string>& all) {
     } else if (word == "mesh") {
       read_meshes(reader, words);
     } else {
-      throw std::invalid_argument(
-          "unknown word '" + word +
-          "': rolling_friction, contacts, damping, tangential_damping, primitive and mesh are there");
+      // Stock has the words of the rolling model after the wall.
+      const std::size_t here = --reader.at;
+      if (words.rolling)
+        words.rolling->read_words(all, reader.at);
+      if (reader.at == here)
+        throw std::invalid_argument(
+            "unknown word '" + word +
+            "': rolling_friction, contacts, damping, tangential_damping, primitive (with rotate "
+            "and velocity, which stock calls shear) and mesh are there");
     }
   }
   if (!words.surface && words.meshes.empty())

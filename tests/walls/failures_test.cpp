@@ -39,6 +39,8 @@ TEST(WallWords, GoodLinesAreRead) {
   EXPECT_EQ(sentence_for(kModel + "rolling_friction cdt torsionTorque on contacts shared primitive type 1 xplane 0"),
             "accepted");
   EXPECT_EQ(sentence_for(kModel + "mesh n_meshes 2 meshes a b"), "accepted");
+  EXPECT_EQ(sentence_for(kModel + "rolling_friction shape primitive type 1 xplane 0 form epsd torsionTorque off"),
+            "accepted");
 }
 
 TEST(WallWords, BadLinesAreNamed) {
@@ -55,5 +57,8 @@ TEST(WallWords, BadLinesAreNamed) {
   expect_names(kModel + "rolling_friction epsdd primitive type 1 xplane 0", "'epsdd'");
   expect_names(kModel + "contacts sharde primitive type 1 xplane 0", "'sharde'");
   expect_names(kModel + "primitive type 1 xplane 0 turn 5", "'turn'");
+  expect_names(kModel + "primitive type 1 xplane 0 shear x 5", "stock calls shear");
+  expect_names(kModel + "rolling_friction shape form epsdd primitive type 1 xplane 0", "'epsdd'");
+  expect_names(kModel + "damping none primitive type 1 xplane 0", "'none'");
   expect_names(kModel + "primitive type 1 xplane 0 mesh n_meshes 1 meshes a", "one wall per fix");
 }
