@@ -11,8 +11,8 @@ namespace eccentra::cluster {
 
 /// World frame, SI. Vectors that start at the body's centre are free of periodic images.
 struct WallTouch {
-  int atom; ///< local index
-  int slot; ///< of the contact in the atom's history
+  int atom;                  ///< local index
+  WallHistoryEntry* history; ///< of this contact
   WallContactKey key;
   Eigen::Vector3d normal;        ///< unit, from the wall to the sphere
   Eigen::Vector3d lever;         ///< from the body's centre to the contact point (half the overlap deep)

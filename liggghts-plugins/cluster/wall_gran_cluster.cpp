@@ -38,7 +38,7 @@ const host::RegisterFix<FixWallGranCluster> record("wall/gran/cluster",
 constexpr const char* kInnerStyle = "cluster/wall/gran";
 
 // Contacts are collected from body after body until so many are together: whole vectors, and still in the cache.
-constexpr std::size_t kBatch = 64;
+constexpr std::size_t kBatch = 32;
 
 Eigen::Vector3d vector3(const double* v) {
   return {v[0], v[1], v[2]};
@@ -210,14 +210,25 @@ void FixWallGranCluster::collect(int i) {
     history_[i].clear();
     return;
   }
-  next_history_.clear();
-  for (std::size_t m = first; m < touches_.size(); ++m) {
-    touches_[m].slot = static_cast<int>(next_history_.size());
-    next_history_.push_back(old_entry(i, touches_[m]));
-  }
-  history_[i].swap(next_history_);
+  renew_history(i, first);
   if (words_.shared)
     share_damping(i, first);
+}
+
+void FixWallGranCluster::renew_history(int i, std::size_t first) {
+  WallHistory::Entries& entries = history_[i];
+  // As a rule the contacts are those of the last step.
+  bool same = entries.size() == touches_.size() - first;
+  for (std::size_t m = first; same && m < touches_.size(); ++m)
+    same = entries[m - first].key == touches_[m].key;
+  if (!same) {
+    next_history_.clear();
+    for (std::size_t m = first; m < touches_.size(); ++m)
+      next_history_.push_back(old_entry(i, touches_[m]));
+    entries.swap(next_history_);
+  }
+  for (std::size_t m = first; m < touches_.size(); ++m)
+    touches_[m].history = &entries[m - first];
 }
 
 void FixWallGranCluster::share_damping(int i, std::size_t first) {
@@ -252,27 +263,30 @@ void FixWallGranCluster::share_damping(int i, std::size_t first) {
 void FixWallGranCluster::collect_primitive(int i) {
   const WallSurface& surface = *words_.surface;
   const Eigen::Vector3d x = vector3(atom->x[i]);
-  if (surface.distance(x) >= atom->radius[i]) // of the bounding sphere
-    return;
-  const auto touch = [&](int sub, const Eigen::Vector3d& arm, double radius) {
-    const WallPoint point = surface.nearest(x + arm);
+  const auto touch = [&](int sub, const Eigen::Vector3d& arm, double radius, const WallPoint& point) {
     const double overlap = radius - point.distance;
     const Eigen::Vector3d to_wall = arm - point.distance * point.normal;
-    touches_.push_back({i, 0, WallContactKey(sub, 0, 0), point.normal, arm - (radius - 0.5 * overlap) * point.normal,
-                        to_wall, surface.velocity_at(x + to_wall), surface.angular_velocity(), overlap, radius, 1.0,
-                        words_.type, -1});
+    touches_.push_back({i, nullptr, WallContactKey(sub, 0, 0), point.normal,
+                        arm - (radius - 0.5 * overlap) * point.normal, to_wall, surface.velocity_at(x + to_wall),
+                        surface.angular_velocity(), overlap, radius, 1.0, words_.type, -1});
   };
   if (is_plain_sphere(i)) {
-    touch(0, Eigen::Vector3d::Zero(), atom->radius[i]);
+    const WallPoint point = surface.nearest(x);
+    if (point.distance < atom->radius[i])
+      touch(0, Eigen::Vector3d::Zero(), atom->radius[i], point);
     return;
   }
+  if (surface.distance(x) >= atom->radius[i]) // of the bounding sphere
+    return;
   const SurfaceSpheres& spheres = bodies_->shapes().surface(bodies_->shape_id(i));
   const Eigen::Matrix3d rotation = row_major(bodies_->rotation(i));
   gaps_.resize(spheres.count);
   wall_gaps(surface, x, rotation, spheres, gaps_.data());
   for (int k = 0; k < spheres.count; ++k)
-    if (gaps_[k] < 0.0)
-      touch(k, rotation * Eigen::Vector3d(spheres.x[k], spheres.y[k], spheres.z[k]), spheres.r[k]);
+    if (gaps_[k] < 0.0) {
+      const Eigen::Vector3d arm = rotation * Eigen::Vector3d(spheres.x[k], spheres.y[k], spheres.z[k]);
+      touch(k, arm, spheres.r[k], surface.nearest(x + arm));
+    }
 }
 
 void FixWallGranCluster::collect_mesh(int i) {
@@ -317,7 +331,7 @@ void FixWallGranCluster::fill(int m, const WallTouch& touch) {
   const int i = touch.atom;
   const int type = atom->type[i];
   const Eigen::Vector3d to_centre = touch.lever + (touch.radius - 0.5 * touch.overlap) * touch.normal;
-  const Eigen::Vector3d& shear = history_[i][touch.slot].shear;
+  const Eigen::Vector3d& shear = touch.history->shear;
   for (int k = 0; k < 3; ++k) {
     block.normal[k][m] = touch.normal[k];
     block.arm_a[k][m] = to_centre[k];
@@ -343,14 +357,14 @@ void FixWallGranCluster::scatter(int m, const WallTouch& touch) {
   const ContactBlock& block = *block_;
   const int i = touch.atom;
   const auto row = [m](const ContactBlock::Row* rows) { return Eigen::Vector3d(rows[0][m], rows[1][m], rows[2][m]); };
-  history_[i][touch.slot].shear = row(block.history);
+  touch.history->shear = row(block.history);
   const Eigen::Vector3d force = row(block.force);
   Eigen::Vector3d torque = row(block.torque_a);
   if (words_.rolling && is_plain_sphere(i)) {
     const double kn = 4. / 3. * block.youngs[m] * block.contact_radius[m];
     torque += words_.rolling->torque({i, atom->type[i], touch.wall_type, atom->rmass[i], kn, kn * touch.overlap,
                                       touch.radius, touch.normal, vector3(atom->omega[i]) - touch.wall_omega,
-                                      touch.wall_omega, history_[i][touch.slot].rolling.data(), !update->setupflag});
+                                      touch.wall_omega, touch.history->rolling.data(), !update->setupflag});
   }
   add(atom->f[i], force);
   add(atom->torque[i], torque);

@@ -80,6 +80,8 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   void collect_mesh(int i);
   /// History with which a contact of this atom goes on: its own, or that of a coplanar triangle before.
   WallHistoryEntry old_entry(int i, const WallTouch& touch) const;
+  /// Hands the contacts their entries of the last step, or new ones.
+  void renew_history(int i, std::size_t first);
   /// Scales the damping of the atom's contacts, touches_[first] and after, to what all of them are together.
   void share_damping(int i, std::size_t first);
   /// Forces of all collected contacts, a block at a time.

@@ -126,7 +126,7 @@ void WallMeshes::touch(int mesh, int triangle, int atom, int sub, const Eigen::V
     tri_mesh->surfaceNorm(triangle, normal.data());
   WallTouch touch;
   touch.atom = atom;
-  touch.slot = 0;
+  touch.history = nullptr;
   touch.key = WallContactKey(sub, mesh, id);
   touch.normal = normal;
   touch.overlap = -gap;
