@@ -161,11 +161,27 @@ void FixBodies::grow_arrays(int nmax) {
   memory->grow(data_, nmax, static_cast<int>(columns), "cluster_bodies:data");
   array_atom = data_;
   rotation_.resize(9 * static_cast<std::size_t>(nmax), 0.);
+  if (resuming_)
+    resumed_.resize(nmax);
 }
 
 void FixBodies::copy_arrays(int i, int j, int) {
   std::copy(data_[i], data_[i] + columns, data_[j]);
   std::copy(rotation(i), rotation(i) + 9, rotation(j));
+  if (resuming_)
+    resumed_[j] = resumed_[i];
+}
+
+void FixBodies::resume_forces() {
+  if (!resuming_)
+    return;
+  for (int i = 0; i < atom->nlocal; ++i)
+    for (int k = 0; k < 3; ++k) {
+      atom->f[i][k] = resumed_[i][k];
+      atom->torque[i][k] = resumed_[i][3 + k];
+    }
+  resuming_ = false;
+  resumed_.clear();
 }
 
 void FixBodies::set_arrays(int i) {
@@ -177,18 +193,27 @@ void FixBodies::set_arrays(int i) {
 
 int FixBodies::pack_exchange(int i, double* buf) {
   std::copy(data_[i], data_[i] + columns, buf);
-  return columns;
+  if (!resuming_)
+    return columns;
+  std::copy(resumed_[i].begin(), resumed_[i].end(), buf + columns);
+  return columns + 6;
 }
 
 int FixBodies::unpack_exchange(int i, double* buf) {
   std::copy(buf, buf + columns, data_[i]);
   rotation_matrix(data_[i], rotation(i));
-  return columns;
+  if (!resuming_)
+    return columns;
+  std::copy(buf + columns, buf + columns + 6, resumed_[i].begin());
+  return columns + 6;
 }
 
 int FixBodies::pack_restart(int i, double* buf) {
-  buf[0] = columns + 1;
-  return 1 + pack_exchange(i, buf + 1);
+  buf[0] = size_restart(i);
+  double* next = std::copy(data_[i], data_[i] + columns, buf + 1);
+  next = std::copy(atom->f[i], atom->f[i] + 3, next);
+  std::copy(atom->torque[i], atom->torque[i] + 3, next);
+  return size_restart(i);
 }
 
 void FixBodies::unpack_restart(int i, int nth) {
@@ -196,15 +221,17 @@ void FixBodies::unpack_restart(int i, int nth) {
   int m = 0;
   for (int k = 0; k < nth; ++k)
     m += static_cast<int>(extra[m]);
-  std::copy(extra + m + 1, extra + m + 1 + columns, data_[i]);
+  const double* record = extra + m + 1;
+  std::copy(record, record + columns, data_[i]);
   rotation_matrix(data_[i], rotation(i));
+  std::copy(record + columns, record + columns + 6, resumed_[i].begin());
 }
 
 int FixBodies::size_restart(int) {
-  return columns + 1;
+  return columns + 1 + 6;
 }
 int FixBodies::maxsize_restart() {
-  return columns + 1;
+  return columns + 1 + 6;
 }
 
 void FixBodies::write_restart(FILE* fp) {
@@ -232,6 +259,8 @@ void FixBodies::write_restart(FILE* fp) {
 }
 
 void FixBodies::restart(char* buf) {
+  resuming_ = true;
+  resumed_.assign(atom->nmax, {});
   ByteReader bytes(buf);
   const int count = bytes.get<int>();
   for (int id = 0; id < count; ++id) {

@@ -11,6 +11,7 @@
 
 #include "fix.h"
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -78,6 +79,11 @@ class FixBodies : public LAMMPS_NS::Fix {
   /// Sets Atom::omega of local atom i from the angular momentum and rotation(i).
   void omega_from_momentum(int i);
 
+  /// After a restart: the forces and torques with which the run that wrote the file would have gone on. The set-up of a
+  /// run computes them anew from whole-step velocities, which is not the same where contacts are damped. Does nothing
+  /// but once.
+  void resume_forces();
+
   int setmask() override;
   void init() override;
   void post_create() override;
@@ -106,7 +112,9 @@ class FixBodies : public LAMMPS_NS::Fix {
   void update_rotations(int first, int last);
 
   ShapeTable shapes_;
-  double** data_ = nullptr; ///< [nmax][columns]
+  double** data_ = nullptr;                    ///< [nmax][columns]
+  std::vector<std::array<double, 6>> resumed_; ///< force and torque from the restart file, while resuming_
+  bool resuming_ = false;
   std::vector<double> rotation_;
   bool send_shapes_ = true; ///< ghosts are new: they need their shape id, too
 };

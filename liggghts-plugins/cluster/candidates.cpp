@@ -9,14 +9,6 @@
 
 namespace eccentra::cluster {
 
-RelativePose::RelativePose(const double* r_a, const double* r_b, const double* offset) {
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j)
-      turn[3 * i + j] = static_cast<float>(r_a[i] * r_b[j] + r_a[3 + i] * r_b[3 + j] + r_a[6 + i] * r_b[6 + j]);
-    shift[i] = static_cast<float>(r_a[i] * offset[0] + r_a[3 + i] * offset[1] + r_a[6 + i] * offset[2]);
-  }
-}
-
 void CandidateStore::clear() {
   for (auto* v : {&ax, &ay, &az, &bx, &by, &bz, &reach})
     v->clear();
@@ -34,7 +26,7 @@ int CandidateStore::reserve(int count) {
 SearchResult CandidateSearch::search(const SurfaceSpheres& a, float extra_a, const SurfaceSpheres& b, float extra_b,
                                      const RelativePose& pose, float skin) {
   found_.clear();
-  const float tx = pose.shift[0], ty = pose.shift[1], tz = pose.shift[2];
+  const float tx = pose.row[0][3], ty = pose.row[1][3], tz = pose.row[2][3];
   const float bound_a = static_cast<float>(a.bounding_radius) + extra_a;
   const float bound_b = static_cast<float>(b.bounding_radius) + extra_b;
   const float clearance = std::sqrt(tx * tx + ty * ty + tz * tz) - bound_a - bound_b;
@@ -51,7 +43,8 @@ SearchResult CandidateSearch::search(const SurfaceSpheres& a, float extra_a, con
     near_a_.resize(room);
     near_b_.resize(room);
   }
-  const float* t = pose.turn;
+  const float t[9] = {pose.row[0][0], pose.row[0][1], pose.row[0][2], pose.row[1][0], pose.row[1][1],
+                      pose.row[1][2], pose.row[2][0], pose.row[2][1], pose.row[2][2]};
   const float reach_a = bound_a + extra_b + skin;
   {
     float *px = px_.data(), *py = py_.data(), *pz = pz_.data(), *gap = gap_.data();
@@ -156,8 +149,9 @@ void CandidateSearch::write(const SurfaceSpheres& a, float extra_a, const Surfac
 
 int overlapping_candidates(const CandidateStore& store, int first, int count, const RelativePose& pose, float margin,
                            int* hits) {
-  const float* t = pose.turn;
-  const float tx = pose.shift[0], ty = pose.shift[1], tz = pose.shift[2];
+  const float t[9] = {pose.row[0][0], pose.row[0][1], pose.row[0][2], pose.row[1][0], pose.row[1][1],
+                      pose.row[1][2], pose.row[2][0], pose.row[2][1], pose.row[2][2]};
+  const float tx = pose.row[0][3], ty = pose.row[1][3], tz = pose.row[2][3];
   int kept = 0;
   constexpr int width = CandidateStore::width;
   for (int start = 0; start < count; start += width) {
@@ -165,6 +159,7 @@ int overlapping_candidates(const CandidateStore& store, int first, int count, co
     const float *ax = store.ax.data() + at, *ay = store.ay.data() + at, *az = store.az.data() + at;
     const float *bx = store.bx.data() + at, *by = store.by.data() + at, *bz = store.bz.data() + at;
     const float* reach = store.reach.data() + at;
+    const int* id = store.id.data() + at;
     float gap[width];
     for (int k = 0; k < width; ++k) {
       const float u = t[0] * bx[k] + t[1] * by[k] + t[2] * bz[k] + (tx - ax[k]);
@@ -174,7 +169,7 @@ int overlapping_candidates(const CandidateStore& store, int first, int count, co
       gap[k] = u * u + v * v + w * w - r * r;
     }
     for (int k = 0; k < width; ++k) {
-      hits[kept] = static_cast<int>(at) + k;
+      hits[kept] = id[k];
       kept += gap[k] < 0;
     }
   }

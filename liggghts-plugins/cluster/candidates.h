@@ -22,12 +22,48 @@ inline int contact_sphere_b(int id) {
 }
 constexpr int max_surface_spheres = 1 << 15;
 
+/// Four floats that the compiler keeps in one register, on any machine.
+typedef float Float4 __attribute__((vector_size(16)));
+
+/// Rotation body to world of one body, by rows; the fourth lane is 0. Single precision.
+struct BodyFrame {
+  BodyFrame() = default;
+  explicit BodyFrame(const double* rotation) {
+    for (int k = 0; k < 3; ++k)
+      row[k] = Float4{static_cast<float>(rotation[3 * k]), static_cast<float>(rotation[3 * k + 1]),
+                      static_cast<float>(rotation[3 * k + 2]), 0.f};
+  }
+  Float4 row[3];
+};
+
 /// Where body B lies in the body frame of A. Single precision: this only preselects.
 struct RelativePose {
-  /// r: row-major rotations body to world; offset: from A's centre to B's [m], world frame.
-  RelativePose(const double* r_a, const double* r_b, const double* offset);
-  float turn[9];  ///< from B's frame to A's, row-major
-  float shift[3]; ///< of B's centre [m]
+  RelativePose() = default;
+  /// offset: from A's centre to B's [m], world frame.
+  RelativePose(const BodyFrame& a, const BodyFrame& b, const double* offset) {
+    Float4 full[3];
+    for (int k = 0; k < 3; ++k) {
+      full[k] = b.row[k];
+      full[k][3] = static_cast<float>(offset[k]);
+    }
+    for (int i = 0; i < 3; ++i)
+      row[i] = a.row[0][i] * full[0] + a.row[1][i] * full[1] + a.row[2][i] * full[2];
+  }
+
+  /// True if matter of B within `radius` of its centre may have moved by more than `limit` in A's frame since the pose
+  /// `before` [m]. A turn by theta moves it by at most 2 sin(theta/2) radius, and the Frobenius norm of the difference
+  /// of the two matrices is 2 sqrt(2) sin(theta/2); (s + t)^2 <= 2 s^2 + 2 t^2 for shift s and turn t.
+  bool moved_beyond(float limit, const RelativePose& before, float radius) const {
+    const Float4 weight = {radius * radius, radius * radius, radius * radius, 2.f};
+    Float4 sum = {0, 0, 0, 0};
+    for (int i = 0; i < 3; ++i) {
+      const Float4 change = row[i] - before.row[i];
+      sum += weight * change * change;
+    }
+    return !(sum[0] + sum[1] + sum[2] + sum[3] <= limit * limit) || limit < 0;
+  }
+
+  Float4 row[3]; ///< rotation from B's frame to A's by rows; fourth lane: B's centre [m]
 };
 
 /// Candidates of many pairs of bodies, one after the other, as structure of arrays: centres in either body frame.
@@ -72,7 +108,8 @@ class CandidateSearch {
   std::vector<float> nx_, ny_, nz_, nr_, distance_; ///< the near ones of B, compact
 };
 
-/// Writes to `hits` the indices (into store, from first on) of candidates that may overlap now; returns how many.
+/// Writes to `hits` (room for `count`, a multiple of the width) the ids of candidates that may overlap now; returns how
+/// many.
 int overlapping_candidates(const CandidateStore& store, int first, int count, const RelativePose& pose, float margin,
                            int* hits);
 

@@ -10,31 +10,32 @@ namespace eccentra::cluster {
 /// Which damping: stock's exact Hertz value sqrt(5) beta, or the paper's 2 beta (eq 13-17).
 enum class DampingLaw { stock, paper };
 
-/// Contacts between sub-spheres, as structure of arrays. A and B are the two bodies; arms run from a body's centre of
-/// mass to its sub-sphere's centre; world frame, SI. Strides are kept off powers of two (they alias in the cache).
-struct ContactBlock {
+/// Contacts between sub-spheres of bodies A and B, as structure of arrays; world frame, SI. Everything is seen from A:
+/// B's torque about its own centre of mass, at `offset` from A's, is offset x force - torque. Strides are kept off
+/// powers of two (they alias in the cache).
+struct alignas(64) ContactBlock {
   static constexpr int capacity = 520; ///< most sub-contacts of one pair of bodies
   using Row = double[capacity];
 
   // In: geometry and state.
-  alignas(64) Row separation[3];          ///< from the centre of B's sub-sphere to that of A's [m]
-  alignas(64) Row arm_a[3], arm_b[3];     ///< [m]
-  alignas(64) Row radius_a, radius_b;     ///< of the sub-spheres [m]
-  alignas(64) Row velocity[3];            ///< of A minus that of B, centres of mass [m/s]
-  alignas(64) Row omega_a[3], omega_b[3]; ///< [rad/s]
-  alignas(64) Row mass;                   ///< effective mass of the two bodies [kg]
-  alignas(64) Row youngs, shear_modulus;  ///< effective E* and G* [Pa], eq (12), (15)
-  alignas(64) Row damping;                ///< beta = -ln e / sqrt(pi^2 + ln^2 e) >= 0
-  alignas(64) Row friction;               ///< Coulomb coefficient
-  alignas(64) Row share;                  ///< factor of the damping, 1 or as SharedStiffness gives it
+  Row separation[3];         ///< from the centre of B's sub-sphere to that of A's [m]
+  Row arm[3];                ///< from A's centre of mass to its sub-sphere's centre [m]
+  Row radius_a, radius_b;    ///< of the sub-spheres [m]
+  Row velocity[3];           ///< of A's centre of mass, minus that of B's matter, were it there [m/s]
+  Row spin[3];               ///< angular velocity of A minus that of B [rad/s]
+  Row mass;                  ///< effective mass of the two bodies [kg]
+  Row youngs, shear_modulus; ///< effective E* and G* [Pa], eq (12), (15)
+  Row damping;               ///< beta = -ln e / sqrt(pi^2 + ln^2 e) >= 0
+  Row friction;              ///< Coulomb coefficient
+  Row share;                 ///< factor of the damping, 1 or as SharedStiffness gives it
   // In and out: tangential displacement [m].
-  alignas(64) Row history[3];
-  // Between the two passes, and out.
-  alignas(64) Row normal[3];                ///< unit, from B to A
-  alignas(64) Row overlap;                  ///< [m]
-  alignas(64) Row contact_radius;           ///< sqrt(R* overlap) [m]
-  alignas(64) Row force[3];                 ///< on A [N]; B gets the opposite
-  alignas(64) Row torque_a[3], torque_b[3]; ///< about the centres of mass [N m]
+  Row history[3];
+  // Between the two passes (or in), and out.
+  Row normal[3];      ///< unit, from B to A
+  Row overlap;        ///< [m]
+  Row contact_radius; ///< sqrt(R* overlap) [m]
+  Row force[3];       ///< on A [N]; B gets the opposite
+  Row torque[3];      ///< on A about its centre of mass [N m]
 };
 
 /// First pass: normal, overlap and contact radius of contacts 0..n-1. Overlaps must be >= 0.
@@ -63,22 +64,18 @@ inline void contact_geometry(ContactBlock& c, int n) {
 template <DampingLaw law, bool tangential_damping = true>
 inline void contact_forces(ContactBlock& c, int n, double dt, bool advance) {
   const double stock_damping = 2 * std::sqrt(5. / 6.);
-  const double time = advance ? dt : 0;
+  const double advancing = advance ? 1 : 0, time = advancing * dt;
   constexpr double tiny = 1e-300; // keeps 0/0 out where nothing slides
 #pragma GCC ivdep
   for (int m = 0; m < n; ++m) {
     const double nx = c.normal[0][m], ny = c.normal[1][m], nz = c.normal[2][m];
-    const double reach_a = c.radius_a[m] - 0.5 * c.overlap[m], reach_b = c.radius_b[m] - 0.5 * c.overlap[m];
-    // Arms to the contact point, and the velocity of A's material there relative to B's.
-    const double ax = c.arm_a[0][m] - reach_a * nx, ay = c.arm_a[1][m] - reach_a * ny,
-                 az = c.arm_a[2][m] - reach_a * nz;
-    const double bx = c.arm_b[0][m] + reach_b * nx, by = c.arm_b[1][m] + reach_b * ny,
-                 bz = c.arm_b[2][m] + reach_b * nz;
-    const double pa = c.omega_a[0][m], qa = c.omega_a[1][m], ra = c.omega_a[2][m];
-    const double pb = c.omega_b[0][m], qb = c.omega_b[1][m], rb = c.omega_b[2][m];
-    const double vx = c.velocity[0][m] + (qa * az - ra * ay) - (qb * bz - rb * by);
-    const double vy = c.velocity[1][m] + (ra * ax - pa * az) - (rb * bx - pb * bz);
-    const double vz = c.velocity[2][m] + (pa * ay - qa * ax) - (pb * by - qb * bx);
+    const double reach = c.radius_a[m] - 0.5 * c.overlap[m];
+    // Arm to the contact point, and the velocity of A's material there relative to B's.
+    const double ax = c.arm[0][m] - reach * nx, ay = c.arm[1][m] - reach * ny, az = c.arm[2][m] - reach * nz;
+    const double wx = c.spin[0][m], wy = c.spin[1][m], wz = c.spin[2][m];
+    const double vx = c.velocity[0][m] + (wy * az - wz * ay);
+    const double vy = c.velocity[1][m] + (wz * ax - wx * az);
+    const double vz = c.velocity[2][m] + (wx * ay - wy * ax);
     const double vn = vx * nx + vy * ny + vz * nz;
     const double tx = vx - vn * nx, ty = vy - vn * ny, tz = vz - vn * nz;
 
@@ -101,7 +98,7 @@ inline void contact_forces(ContactBlock& c, int n, double dt, bool advance) {
 
     double sx = c.history[0][m] + tx * time, sy = c.history[1][m] + ty * time, sz = c.history[2][m] + tz * time;
     // The displacement turns with the tangent plane.
-    const double out = (sx * nx + sy * ny + sz * nz) * (advance ? 1 : 0);
+    const double out = (sx * nx + sy * ny + sz * nz) * advancing;
     sx -= out * nx;
     sy -= out * ny;
     sz -= out * nz;
@@ -114,18 +111,17 @@ inline void contact_forces(ContactBlock& c, int n, double dt, bool advance) {
     const double fx = fn * nx - kt * hx - damper * tx;
     const double fy = fn * ny - kt * hy - damper * ty;
     const double fz = fn * nz - kt * hz - damper * tz;
-    c.history[0][m] = advance ? hx : c.history[0][m];
-    c.history[1][m] = advance ? hy : c.history[1][m];
-    c.history[2][m] = advance ? hz : c.history[2][m];
+    // Written without a condition (vector loops): where history is only read, time and advancing are 0.
+    const double kept = advancing * scale + (1 - advancing);
+    c.history[0][m] = sx * kept;
+    c.history[1][m] = sy * kept;
+    c.history[2][m] = sz * kept;
     c.force[0][m] = fx;
     c.force[1][m] = fy;
     c.force[2][m] = fz;
-    c.torque_a[0][m] = ay * fz - az * fy;
-    c.torque_a[1][m] = az * fx - ax * fz;
-    c.torque_a[2][m] = ax * fy - ay * fx;
-    c.torque_b[0][m] = bz * fy - by * fz;
-    c.torque_b[1][m] = bx * fz - bz * fx;
-    c.torque_b[2][m] = by * fx - bx * fy;
+    c.torque[0][m] = ay * fz - az * fy;
+    c.torque[1][m] = az * fx - ax * fz;
+    c.torque[2][m] = ax * fy - ay * fx;
   }
 }
 

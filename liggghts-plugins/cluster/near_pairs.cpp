@@ -9,6 +9,7 @@
 #include "neigh_list.h"
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_map>
 
 namespace eccentra::cluster {
@@ -45,7 +46,10 @@ void NearPairs::rebuild(const NeighList& list) {
       p.surface_a = &shapes.surface(bodies_.shape_id(p.a));
       p.surface_b = &shapes.surface(bodies_.shape_id(p.b));
       p.direct = p.surface_a->single_at_centre && p.surface_b->single_at_centre;
-      p.slack = -1;
+      p.extra_a = bodies_.extra_radius(p.a);
+      p.extra_b = bodies_.extra_radius(p.b);
+      p.bound_b = static_cast<float>(radius[p.b]);
+      p.skin = p.wake = -1; // search first
       p.range = static_cast<float>(radius[p.a] + radius[p.b]);
       p.candidate_first = p.candidate_count = p.candidate_room = 0;
       pairs.push_back(p);
@@ -66,8 +70,27 @@ void NearPairs::rebuild(const NeighList& list) {
     return p.a < q.a;
   });
   local_at_build_ = atom->nlocal;
+  path_.assign(atom->nlocal + atom->nghost, 0.f);
+  frame_.resize(path_.size());
   take_history();
   live_ = true;
+}
+
+void NearPairs::update_bodies(float dt) {
+  const double *v = atom->v[0], *omega = atom->omega[0], *radius = atom->radius;
+  const int bodies = static_cast<int>(path_.size());
+  for (int i = 0; i < bodies; ++i)
+    frame_[i] = BodyFrame(bodies_.rotation(i));
+  float* path = path_.data();
+#pragma GCC ivdep
+  for (int i = 0; i < bodies; ++i) {
+    const float vx = static_cast<float>(v[3 * i]), vy = static_cast<float>(v[3 * i + 1]);
+    const float vz = static_cast<float>(v[3 * i + 2]);
+    const float wx = static_cast<float>(omega[3 * i]), wy = static_cast<float>(omega[3 * i + 1]);
+    const float wz = static_cast<float>(omega[3 * i + 2]);
+    path[i] += dt * (std::sqrt(vx * vx + vy * vy + vz * vz) +
+                     static_cast<float>(radius[i]) * std::sqrt(wx * wx + wy * wy + wz * wz));
+  }
 }
 
 void NearPairs::take_history() {

@@ -22,10 +22,14 @@ struct NearPair {
   int a, b; ///< local or ghost indices
   int tag_a, tag_b;
   const SurfaceSpheres *surface_a, *surface_b;
-  bool direct;         ///< two single spheres: nothing to search
-  float slack;         ///< relative motion left before the candidates must be searched again [m]; < 0: search now
-  float range;         ///< sum of the bounding radii [m]
-  int candidate_first; ///< into the candidate store
+  double extra_a, extra_b; ///< added to the sub-spheres' radii (plain spheres) [m]
+  bool direct;             ///< two single spheres: nothing to search
+  RelativePose pose;       ///< at the last search
+  float skin;              ///< relative motion since then that the candidates allow [m]
+  float wake;              ///< without candidates: length of both bodies' paths that calls for a new search [m]
+  float range;             ///< sum of the bounding radii [m]
+  float bound_b;           ///< bounding radius of B [m]
+  int candidate_first;     ///< into the candidate store
   int candidate_count;
   int candidate_room;
 };
@@ -56,6 +60,13 @@ class NearPairs : protected LAMMPS_NS::Pointers {
   ContactList contacts, next; ///< of the last step; the one under construction
   CandidateStore candidates;
 
+  /// Once a step: frames of all bodies, ghosts as well, and their paths longer by dt (|v| + R |omega|): no matter of a
+  /// body has moved farther.
+  void update_bodies(float dt);
+  const BodyFrame& frame(int i) const { return frame_[i]; }
+  /// Length of the path of local or ghost atom i since the list was made [m].
+  float path(int i) const { return path_[i]; }
+
   /// Makes `next` the contacts of the last step.
   void accept() { std::swap(contacts, next); }
   double memory_usage() const;
@@ -67,6 +78,8 @@ class NearPairs : protected LAMMPS_NS::Pointers {
   FixContactHistory& history_;
   bool live_ = false;
   int local_at_build_ = 0;
+  std::vector<float> path_;
+  std::vector<BodyFrame> frame_;
 };
 
 } // namespace eccentra::cluster

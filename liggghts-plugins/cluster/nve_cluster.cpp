@@ -71,6 +71,7 @@ class FixNveCluster : public Fix {
   }
 
   void initial_integrate(int) override {
+    bodies_->resume_forces();
     for (int i = 0; i < atom->nlocal; ++i) {
       if (!(atom->mask[i] & groupbit))
         continue;

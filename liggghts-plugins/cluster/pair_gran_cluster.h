@@ -51,13 +51,12 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
  private:
   struct PairInBlock {
     int a, b;
-    int first, last; ///< contacts in the block
-    double separation[3];
+    int first, last;  ///< contacts in the block
+    double offset[3]; ///< from A's centre to B's [m]
   };
 
-  void search_candidates(NearPair& p, const RelativePose& pose, float motion);
-  void gather(const NearPair& p, const double* offset, int old_first, int old_last);
-  int add_contact(const NearPair& p, int id, const double* offset, int& old, int old_last);
+  void search_candidates(NearPair& p, const RelativePose& pose, const double* offset);
+  void gather(const NearPair& p, const double* offset, const int* ids, int count, int old_first, int old_last);
   void flush();
   template <DampingLaw law> void compute_block(int padded);
   void share_damping();
@@ -70,8 +69,8 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   std::vector<int> hits_;
   std::vector<PairInBlock> in_block_;
   ContactBlock block_ = {};
-  int filled_ = 0;      ///< contacts in the block
-  int block_start_ = 0; ///< of the block in the list under construction
+  int filled_ = 0; ///< contacts in the block
+  int block_ids_[ContactBlock::capacity];
   bool advance_ = false;
   double** youngs_ = nullptr;
   double** shear_ = nullptr;

@@ -325,7 +325,7 @@ WallHistoryEntry FixWallGranCluster::old_entry(int i, const WallTouch& touch) co
   return {touch.key, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
 }
 
-// The wall is body B of the contact law: the contact point is its centre, so it has no arm and its spin adds nothing.
+// The wall is body B of the contact law: its velocity is that at the contact point, so its spin adds nothing.
 void FixWallGranCluster::fill(int m, const WallTouch& touch) {
   ContactBlock& block = *block_;
   const int i = touch.atom;
@@ -334,15 +334,12 @@ void FixWallGranCluster::fill(int m, const WallTouch& touch) {
   const Eigen::Vector3d& shear = touch.history->shear;
   for (int k = 0; k < 3; ++k) {
     block.normal[k][m] = touch.normal[k];
-    block.arm_a[k][m] = to_centre[k];
-    block.arm_b[k][m] = 0.0;
+    block.arm[k][m] = to_centre[k];
     block.velocity[k][m] = atom->v[i][k] - touch.wall_velocity[k];
-    block.omega_a[k][m] = atom->omega[i][k];
-    block.omega_b[k][m] = 0.0;
+    block.spin[k][m] = atom->omega[i][k];
     block.history[k][m] = shear[k];
   }
   block.radius_a[m] = touch.radius;
-  block.radius_b[m] = 0.5 * touch.overlap;
   block.overlap[m] = touch.overlap;
   block.contact_radius[m] = std::sqrt(touch.radius * touch.overlap);
   block.mass[m] = atom->rmass[i];
@@ -359,7 +356,7 @@ void FixWallGranCluster::scatter(int m, const WallTouch& touch) {
   const auto row = [m](const ContactBlock::Row* rows) { return Eigen::Vector3d(rows[0][m], rows[1][m], rows[2][m]); };
   touch.history->shear = row(block.history);
   const Eigen::Vector3d force = row(block.force);
-  Eigen::Vector3d torque = row(block.torque_a);
+  Eigen::Vector3d torque = row(block.torque);
   if (words_.rolling && is_plain_sphere(i)) {
     const double kn = 4. / 3. * block.youngs[m] * block.contact_radius[m];
     torque += words_.rolling->torque({i, atom->type[i], touch.wall_type, atom->rmass[i], kn, kn * touch.overlap,

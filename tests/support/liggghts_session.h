@@ -20,7 +20,7 @@ namespace eccentra::test {
 /// Quiet by default; set ECCENTRA_TEST_VERBOSE in the environment to see what LIGGGHTS prints.
 class LiggghtsSession {
  public:
-  LiggghtsSession();
+  explicit LiggghtsSession(MPI_Comm ranks = MPI_COMM_WORLD);
   ~LiggghtsSession();
   LiggghtsSession(const LiggghtsSession&) = delete;
   LiggghtsSession& operator=(const LiggghtsSession&) = delete;

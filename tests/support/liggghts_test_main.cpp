@@ -15,7 +15,7 @@
 
 namespace eccentra::test {
 
-LiggghtsSession::LiggghtsSession() {
+LiggghtsSession::LiggghtsSession(MPI_Comm ranks) {
   const bool verbose = std::getenv("ECCENTRA_TEST_VERBOSE") != nullptr;
   std::vector<std::string> words = {"liggghts", "-log", "/dev/null"};
   if (!verbose)
@@ -23,7 +23,7 @@ LiggghtsSession::LiggghtsSession() {
   std::vector<char*> arguments;
   for (std::string& word : words)
     arguments.push_back(word.data());
-  lammps_ = std::make_unique<LAMMPS_NS::LAMMPS>(static_cast<int>(arguments.size()), arguments.data(), MPI_COMM_WORLD);
+  lammps_ = std::make_unique<LAMMPS_NS::LAMMPS>(static_cast<int>(arguments.size()), arguments.data(), ranks);
   eccentra::host::enter(lammps_.get());
 }
 

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The same digits on any number of ranks and through a restart; periodic boundaries; bodies that leave.
+#include "bodies_scene.h"
+
+#include "force.h"
+#include "pair.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace eccentra;
+using namespace eccentra::test;
+
+namespace {
+
+constexpr int rows = 4, layers = 4;
+
+/// Mixed bodies and spheres fall on a floor and run into each other; two are on their way out of the box.
+void fill(LiggghtsSession& session) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal(0, 1);
+  const std::vector<shape::ClusterShape> shapes = {shape_of("cube", "8"), shape_of("disk", "7"),
+                                                   shape_of("cube", "64")};
+  int n = 0;
+  for (int c = 0; c < layers; ++c)
+    for (int a = 0; a < rows; ++a)
+      for (int b = 0; b < rows; ++b, ++n) {
+        Start start;
+        start.position = Eigen::Vector3d((a - 1.5) * 9.5e-3, (b - 1.5) * 9.5e-3, -0.093 + c * 9.5e-3);
+        start.velocity = 0.2 * Eigen::Vector3d(normal(random), normal(random), normal(random));
+        start.omega = 20 * Eigen::Vector3d(normal(random), normal(random), normal(random));
+        start.orientation =
+            Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
+        if (n % 4 == 3)
+          add_sphere(session, start, 3.2e-3);
+        else
+          add_body(session, shapes[n % 4], start);
+      }
+  Start leaving;
+  leaving.position = Eigen::Vector3d(0.095, 0, 0);
+  leaving.velocity = Eigen::Vector3d(1, 0, 0);
+  add_body(session, shapes[0], leaving);
+  leaving.position = Eigen::Vector3d(0.095, 0.02, 0.0071);
+  leaving.velocity = Eigen::Vector3d(0.8, 0, 0);
+  add_body(session, shapes[2], leaving);
+}
+
+constexpr const char* forces = R"(
+  fix gravity all gravity 9.81 vector 0 0 -1
+  fix floor all wall/gran/cluster model hertz tangential history primitive type 1 zplane -0.1
+  thermo_modify lost ignore
+)";
+
+using Row = std::array<double, 13>;
+
+/// Position, velocity, quaternion and angular velocity by tag, the same on every rank; zero where a body is gone.
+std::vector<Row> rows_of(LiggghtsSession& session, int tags, MPI_Comm ranks) {
+  std::vector<Row> all(tags, Row{});
+  cluster::FixBodies& bodies = cluster::FixBodies::require(&session.lammps());
+  for (int tag = 1; tag <= tags; ++tag) {
+    const int i = session.local(tag);
+    if (i < 0)
+      continue;
+    double* next = all[tag - 1].data();
+    next = std::copy_n(session.atom().x[i], 3, next);
+    next = std::copy_n(session.atom().v[i], 3, next);
+    next = std::copy_n(bodies.quaternion(i), 4, next);
+    std::copy_n(session.atom().omega[i], 3, next);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, all[0].data(), tags * 13, MPI_DOUBLE, MPI_SUM, ranks);
+  return all;
+}
+
+constexpr int bodies_at_start = rows * rows * layers + 2;
+
+void expect_identical(const std::vector<Row>& ours, const std::vector<Row>& reference) {
+  int different = 0;
+  for (std::size_t n = 0; n < reference.size(); ++n)
+    different += ours[n] != reference[n];
+  EXPECT_EQ(different, 0) << "bodies whose state differs in any bit";
+}
+
+std::vector<Row> straight_run(MPI_Comm ranks, int steps) {
+  LiggghtsSession session(ranks);
+  open_box(session, {});
+  use_clusters(session);
+  fill(session);
+  session.script(forces);
+  session.script("timestep 1e-5\nrun " + std::to_string(steps) + "\n");
+  EXPECT_EQ(session.atom().natoms, bodies_at_start - 2) << "two bodies have left through the boundary";
+  return rows_of(session, bodies_at_start, ranks);
+}
+
+} // namespace
+
+TEST(Parallel, AnyNumberOfRanksGivesTheSameDigits) {
+  constexpr int steps = 6000;
+  expect_identical(straight_run(MPI_COMM_WORLD, steps), straight_run(MPI_COMM_SELF, steps));
+}
+
+TEST(Parallel, RestartGivesTheSameDigitsAsAStraightRun) {
+  constexpr int half = 3000;
+  const std::vector<Row> reference = straight_run(MPI_COMM_SELF, 2 * half);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  {
+    LiggghtsSession session;
+    open_box(session, {});
+    use_clusters(session);
+    fill(session);
+    session.script(forces);
+    session.script("timestep 1e-5\nrestart " + std::to_string(half) + " half.restart\nrun " +
+                   std::to_string(half + 100) + "\n");
+  }
+  LiggghtsSession session(MPI_COMM_SELF); // written by all ranks, read by one
+  session.script("atom_style granular\natom_modify map array\nboundary f f f\nnewton off\n"
+                 "communicate single vel yes\nunits si\nread_restart half.restart." +
+                 std::to_string(half) +
+                 "\nneighbor 0.001 bin\nneigh_modify delay 0\n"
+                 "fix m1 all property/global youngsModulus peratomtype 5e6\n"
+                 "fix m2 all property/global poissonsRatio peratomtype 0.3\n"
+                 "fix m3 all property/global coefficientRestitution peratomtypepair 1 0.9\n"
+                 "fix m4 all property/global coefficientFriction peratomtypepair 1 0.5\n");
+  use_clusters(session);
+  session.script(forces);
+  session.script("timestep 1e-5\nrun " + std::to_string(half) + "\n");
+  expect_identical(rows_of(session, bodies_at_start, MPI_COMM_SELF), reference);
+}
+
+TEST(Parallel, PairsMeetThroughPeriodicBoundariesAsInTheMiddle) {
+  const auto run = [](const Eigen::Vector3d& shift) {
+    LiggghtsSession session;
+    open_box(session, {}, "p p p");
+    use_clusters(session);
+    Start start;
+    start.position = shift + Eigen::Vector3d(-4.5e-3, 0, 0);
+    start.velocity.x() = 0.3;
+    start.orientation = Eigen::Quaterniond(0.9, 0.1, 0.3, 0.2).normalized();
+    add_body(session, shape_of("cube", "27"), start);
+    start.position = shift + Eigen::Vector3d(4.5e-3, 1e-3, 5e-4);
+    for (int k = 0; k < 3; ++k)
+      if (start.position[k] >= 0.1)
+        start.position[k] -= 0.2;
+    start.velocity.x() = -0.3;
+    start.orientation = Eigen::Quaterniond(0.3, 0.8, 0.1, -0.2).normalized();
+    add_body(session, shape_of("disk", "19"), start);
+    session.script("timestep 2e-6\nrun 8000\n");
+    return rows_of(session, 2, MPI_COMM_WORLD);
+  };
+  const std::vector<Row> middle = run(Eigen::Vector3d::Zero());
+  const std::vector<Row> across = run(Eigen::Vector3d(0.0999, 0, 0));
+  for (int body = 0; body < 2; ++body)
+    for (int k = 3; k < 13; ++k)
+      EXPECT_NEAR(across[body][k], middle[body][k], 1e-7 * (k < 10 ? 1 : 100)) << "body " << body << " value " << k;
+}
