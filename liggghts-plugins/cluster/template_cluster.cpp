@@ -104,6 +104,10 @@ TemplateWords::TemplateWords(LAMMPS* lmp, int narg, char** arg) {
                "additional_group, shape, diameter and orientation");
     }
   }
+  if (shape_words.size() > 2 && shape_words[0] != "file" && shape_words[0] != "stl")
+    fail(lmp, id,
+         "unknown word '" + shape_words[2] + "' after the shape '" + shape_words[0] + " " + shape_words[1] +
+             "': diameter and orientation may follow");
   if (!have_density)
     fail(lmp, id, "no density: write `density constant VALUE`, that of the solid in kg/m3");
   if (shape_words.empty())
