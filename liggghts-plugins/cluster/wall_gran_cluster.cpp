@@ -37,9 +37,6 @@ const host::RegisterFix<FixWallGranCluster> record("wall/gran/cluster",
 // do not find us.
 constexpr const char* kInnerStyle = "cluster/wall/gran";
 
-// Contacts are collected from body after body until so many are together: whole vectors, and still in the cache.
-constexpr std::size_t kBatch = 32;
-
 Eigen::Vector3d vector3(const double* v) {
   return {v[0], v[1], v[2]};
 }
@@ -189,6 +186,10 @@ void FixWallGranCluster::rebuild_near_list() {
       ++next;
     else
       history_[i].clear();
+  near_spheres_.clear();
+  near_clusters_.clear();
+  for (const int i : near_)
+    (words_.surface && is_plain_sphere(i) ? near_spheres_ : near_clusters_).push_back(i);
   near_list_stale_ = false;
 }
 
@@ -406,10 +407,12 @@ void FixWallGranCluster::post_force(int) {
     rebuild_near_list();
   local_sums_.fill(0.0);
   summed_at_ = -1;
+  if (!near_spheres_.empty())
+    sphere_forces();
   touches_.clear();
-  for (const int i : near_) {
+  for (const int i : near_clusters_) {
     collect(i);
-    if (touches_.size() > kBatch)
+    if (touches_.size() >= kBatch)
       add_forces();
   }
   add_forces();

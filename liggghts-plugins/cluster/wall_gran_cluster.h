@@ -71,6 +71,9 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   int max_type() override;
 
  private:
+  // Contacts are collected from body after body until so many are together: whole vectors, and still in the cache.
+  static constexpr int kBatch = 32;
+
   [[noreturn]] void fail(const std::string& sentence);
   void rebuild_near_list();
   /// Appends the contacts of local atom i to touches_ and makes them the atom's history.
@@ -86,6 +89,11 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   void share_damping(int i, std::size_t first);
   /// Forces of all collected contacts, a block at a time.
   void add_forces();
+  /// Contacts, forces and torques of near_spheres_, all in one go.
+  void sphere_forces();
+  /// Writes the contact of sphere i, if it has one, to place m of the block; returns the next free place.
+  template <class Wall> int add_sphere(const Wall& wall, int i, int m);
+  template <class Wall> void scatter_spheres(const Wall& wall, int n);
   void evaluate(int n, bool advance);
   void fill(int m, const WallTouch& touch);
   void scatter(int m, const WallTouch& touch);
@@ -97,7 +105,10 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   int largest_type_ = 0;
   FixBodies* bodies_ = nullptr; ///< null where the scene has no clusters
   WallHistory history_;
-  std::vector<int> near_; ///< local atoms that may touch before the next neighbour build
+  std::vector<int> near_;          ///< local atoms that may touch before the next neighbour build
+  std::vector<int> near_spheres_;  ///< of these, plain spheres at a primitive wall
+  std::vector<int> near_clusters_; ///< the others
+  std::array<int, kBatch> in_block_{};
   bool near_list_stale_ = true;
   std::vector<WallTouch> touches_; ///< of the particles at hand
   std::vector<double> gaps_;       ///< of the sub-spheres of the particle at hand

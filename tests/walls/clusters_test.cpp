@@ -218,3 +218,103 @@ TEST(WallClusters, MeshFloorIsThePlane) {
   EXPECT_LT((plane.velocity - mesh.velocity).norm(), 1e-9 * d.speed);
   EXPECT_LT((plane.omega - mesh.omega).norm(), 1e-9 * plane.omega.norm());
 }
+
+TEST(WallClusters, WideCylinderIsThePlaneFromInsideAndOutside) {
+  Drop d;
+  d.family = "cube";
+  d.count = "27";
+  d.orientation = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 0.5).normalized());
+  d.x = d.y = 0;
+  const Rebound plane = drop(d);
+  ASSERT_GT(plane.omega.norm(), 1);
+  // Radius 100 m: over the body's width the floor bends by 1e-7 m, against an overlap of 1e-4 m. x cylinders take (y
+  // z).
+  for (const char* wall : {"primitive type 1 xcylinder 100 0 100", "primitive type 1 xcylinder 100 0 -100"}) {
+    d.wall = wall;
+    const Rebound round = drop(d);
+    EXPECT_LT((plane.velocity - round.velocity).norm(), 0.01 * d.speed) << wall;
+    EXPECT_LT((plane.omega - round.omega).norm(), 0.01 * plane.omega.norm()) << wall;
+  }
+}
+
+namespace {
+
+/// Cubes tumble down into a corner of two turning walls; state of all bodies, in the order of their tags.
+std::vector<double> tumble(LiggghtsSession& session, const std::string& commands) {
+  session.script(commands);
+  std::vector<double> all(4 * 13, 0.0);
+  FixBodies& bodies = FixBodies::require(&session.lammps());
+  for (int tag = 1; tag <= 4; ++tag) {
+    const int i = session.local(tag);
+    if (i < 0)
+      continue;
+    double* out = &all[13 * (tag - 1)];
+    for (int k = 0; k < 3; ++k) {
+      out[k] = session.atom().x[i][k];
+      out[3 + k] = session.atom().v[i][k];
+      out[6 + k] = session.atom().omega[i][k];
+    }
+    std::copy(bodies.quaternion(i), bodies.quaternion(i) + 4, out + 9);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  return all;
+}
+
+const char* kTumbleWalls = R"(
+  fix gravity all gravity 9.81 vector 0 0.2 -1
+  fix hole all wall/gran/cluster model hertz tangential history primitive type 1 xcylinder 0.05 0 0 rotate 5
+  fix belt all wall/gran/cluster model hertz tangential history primitive type 2 zplane -0.046 velocity 0.2 0 0
+  fix integrate all nve/cluster
+)";
+
+void place_cubes(LiggghtsSession& session) {
+  session.script(wall_scene(1e-5));
+  session.script("pair_style gran/cluster model hertz tangential history rolling_friction off\npair_coeff * *");
+  FixBodies& bodies = FixBodies::require(&session.lammps());
+  std::size_t used = 0;
+  const int id = bodies.shapes().add(eccentra::shape::make_shape({"cube", "27"}, 0, used, kDiameter));
+  for (int tag = 1; tag <= 4; ++tag)
+    session.script("create_atoms 1 single " + std::to_string(-0.012 + 0.009 * (tag - 1)) + " " +
+                   std::to_string(0.002 * tag) + " -0.0405 units box");
+  for (int tag = 1; tag <= 4; ++tag) {
+    const Eigen::Quaterniond q(Eigen::AngleAxisd(0.4 * tag, Eigen::Vector3d(1, tag, -1).normalized()));
+    const double wxyz[] = {q.w(), q.x(), q.y(), q.z()};
+    if (session.local(tag) >= 0)
+      bodies.make_body(session.local(tag), id, kDensity, wxyz);
+  }
+}
+
+} // namespace
+
+TEST(WallClusters, RestartGoesOnToTheLastDigit) {
+  std::vector<double> straight;
+  {
+    LiggghtsSession session;
+    place_cubes(session);
+    straight = tumble(session, std::string(kTumbleWalls) + "run 3000\nwrite_restart clusters.restart\nrun 3000");
+  }
+  EXPECT_GT(straight[0], -0.0115); // the belt has taken them along
+  LiggghtsSession session;
+  session.script(R"(
+    atom_style granular
+    atom_modify map array
+    newton off
+    communicate single vel yes
+    processors * 1 1
+    units si
+    read_restart clusters.restart
+    neighbor 0.002 bin
+    neigh_modify delay 0
+    fix m1 all property/global youngsModulus peratomtype 5e6 5e6
+    fix m2 all property/global poissonsRatio peratomtype 0.3 0.3
+    fix m3 all property/global coefficientRestitution peratomtypepair 2 0.9 0.9 0.9 0.9
+    fix m4 all property/global coefficientFriction peratomtypepair 2 0.5 0.5 0.5 0.5
+    pair_style gran/cluster model hertz tangential history rolling_friction off
+    pair_coeff * *
+    timestep 1e-5
+  )");
+  FixBodies::require(&session.lammps());
+  const auto restarted = tumble(session, std::string(kTumbleWalls) + "run 3000");
+  for (std::size_t k = 0; k < straight.size(); ++k)
+    EXPECT_EQ(restarted[k], straight[k]) << "value " << k;
+}

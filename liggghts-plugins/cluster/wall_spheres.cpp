@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The short way of wall/gran/cluster for plain spheres on planes and cylinders: one contact each, written straight into
+// the block of the contact law. Plain numbers throughout: small vectors cost more to move than to compute with.
+#include "cluster/wall_gran_cluster.h"
+
+#include "atom.h"
+#include "update.h"
+
+#include <cmath>
+
+namespace eccentra::cluster {
+
+namespace {
+
+/// A primitive wall as plain numbers.
+struct PlainWall {
+  explicit PlainWall(const WallSurface& surface) : plane(surface.is_plane()), radius(surface.radius()) {
+    const Eigen::Vector3d at_reference = surface.velocity_at(surface.reference());
+    for (int k = 0; k < 3; ++k) {
+      reference[k] = surface.reference()[k];
+      direction[k] = surface.direction()[k];
+      velocity[k] = at_reference[k];
+      omega[k] = surface.angular_velocity()[k];
+    }
+  }
+
+  bool plane;
+  double radius;
+  double reference[3], direction[3], velocity[3], omega[3];
+};
+
+/// Distance of x from the wall; n becomes the unit normal from the wall to x, `from` the vector from the wall's
+/// reference.
+inline double nearest(const PlainWall& wall, const double* x, double* n, double* from) {
+  for (int k = 0; k < 3; ++k)
+    from[k] = x[k] - wall.reference[k];
+  const double* d = wall.direction;
+  const double along = from[0] * d[0] + from[1] * d[1] + from[2] * d[2];
+  if (wall.plane) {
+    const double side = along < 0 ? -1 : 1;
+    for (int k = 0; k < 3; ++k)
+      n[k] = side * d[k];
+    return std::fabs(along);
+  }
+  double radial[3];
+  for (int k = 0; k < 3; ++k)
+    radial[k] = from[k] - along * d[k];
+  const double r = std::sqrt(radial[0] * radial[0] + radial[1] * radial[1] + radial[2] * radial[2]);
+  // On the axis there is no normal; only a sphere wider than the hole could touch there.
+  const double scale = r > 0 ? (r > wall.radius ? 1 : -1) / r : 0;
+  for (int k = 0; k < 3; ++k)
+    n[k] = scale * radial[k];
+  return std::fabs(r - wall.radius);
+}
+
+} // namespace
+
+void FixWallGranCluster::sphere_forces() {
+  const PlainWall wall(*words_.surface);
+  const std::size_t all = near_spheres_.size();
+  std::size_t next = 0;
+  while (next < all) {
+    int n = 0;
+    while (next < all && n < kBatch)
+      n = add_sphere(wall, near_spheres_[next++], n);
+    evaluate(n, !update->setupflag);
+    scatter_spheres(wall, n);
+  }
+}
+
+template <class Wall> int FixWallGranCluster::add_sphere(const Wall& wall, int i, int m) {
+  double normal[3], from[3];
+  const double radius = atom->radius[i];
+  const double distance = nearest(wall, atom->x[i], normal, from);
+  WallHistory::Entries& entries = history_[i];
+  if (distance >= radius) {
+    if (!entries.empty())
+      entries.clear();
+    return m;
+  }
+  if (entries.empty())
+    entries.push_back({WallContactKey(0, 0, 0), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
+  ContactBlock& block = *block_;
+  const double overlap = radius - distance;
+  double at_wall[3];
+  for (int k = 0; k < 3; ++k)
+    at_wall[k] = from[k] - distance * normal[k];
+  const double* w = wall.omega;
+  const double turning[3] = {w[1] * at_wall[2] - w[2] * at_wall[1], w[2] * at_wall[0] - w[0] * at_wall[2],
+                             w[0] * at_wall[1] - w[1] * at_wall[0]};
+  const int type = atom->type[i];
+  const int wall_type = words_.type;
+  for (int k = 0; k < 3; ++k) {
+    block.normal[k][m] = normal[k];
+    block.arm_a[k][m] = 0;
+    block.arm_b[k][m] = 0;
+    block.velocity[k][m] = atom->v[i][k] - (wall.velocity[k] + turning[k]);
+    block.omega_a[k][m] = atom->omega[i][k];
+    block.omega_b[k][m] = 0;
+    block.history[k][m] = entries[0].shear[k];
+  }
+  block.radius_a[m] = radius;
+  block.radius_b[m] = 0.5 * overlap;
+  block.overlap[m] = overlap;
+  block.contact_radius[m] = std::sqrt(radius * overlap);
+  block.mass[m] = atom->rmass[i];
+  block.youngs[m] = youngs_[type][wall_type];
+  block.shear_modulus[m] = shear_[type][wall_type];
+  block.damping[m] = -damping_[type][wall_type];
+  block.friction[m] = friction_[type][wall_type];
+  block.share[m] = 1;
+  in_block_[m] = i;
+  return m + 1;
+}
+
+template <class Wall> void FixWallGranCluster::scatter_spheres(const Wall& wall, int n) {
+  const ContactBlock& block = *block_;
+  for (int m = 0; m < n; ++m) {
+    const int i = in_block_[m];
+    WallHistoryEntry& entry = history_[i][0];
+    double force[3], torque[3], from[3];
+    for (int k = 0; k < 3; ++k) {
+      entry.shear[k] = block.history[k][m];
+      force[k] = block.force[k][m];
+      torque[k] = block.torque_a[k][m];
+      from[k] = atom->x[i][k] - wall.reference[k];
+    }
+    if (words_.rolling) {
+      const double kn = 4. / 3. * block.youngs[m] * block.contact_radius[m];
+      const Eigen::Vector3d normal(block.normal[0][m], block.normal[1][m], block.normal[2][m]);
+      const Eigen::Vector3d spin(wall.omega[0], wall.omega[1], wall.omega[2]);
+      const Eigen::Vector3d omega(atom->omega[i][0], atom->omega[i][1], atom->omega[i][2]);
+      const Eigen::Vector3d rolling = words_.rolling->torque(
+          {i, atom->type[i], words_.type, block.mass[m], kn, kn * block.overlap[m], block.radius_a[m], normal,
+           omega - spin, spin, entry.rolling.data(), !update->setupflag});
+      for (int k = 0; k < 3; ++k)
+        torque[k] += rolling[k];
+    }
+    const double moment[3] = {from[1] * force[2] - from[2] * force[1], from[2] * force[0] - from[0] * force[2],
+                              from[0] * force[1] - from[1] * force[0]};
+    for (int k = 0; k < 3; ++k) {
+      atom->f[i][k] += force[k];
+      atom->torque[i][k] += torque[k];
+      local_sums_[k] -= force[k];
+      local_sums_[3 + k] -= moment[k] + torque[k];
+    }
+  }
+  local_sums_[6] += n;
+}
+
+} // namespace eccentra::cluster
