@@ -19,11 +19,11 @@ constexpr label kMostIterations = 1000;
 
 } // namespace
 
-conservativeDiffusion::conservativeDiffusion(const fvMesh& mesh, double length, double tolerance)
-    : mesh_(mesh),
+conservativeDiffusion::conservativeDiffusion(const fvMesh& mesh, double length, int steps, double tolerance)
+    : mesh_(mesh), steps_(steps),
       helper_(IOobject("spread", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh,
               dimensionedScalar("none", dimless, Zero), zeroGradientFvPatchScalarField::typeName) {
-  const dimensionedScalar step("step", dimArea, kStepPerSquaredLength * sqr(length));
+  const dimensionedScalar step("step", dimArea, kStepPerSquaredLength * sqr(length) / steps);
   const surfaceScalarField stepMagSf(step * mesh.magSf());
   matrix_ = std::make_unique<fvScalarMatrix>(
       fvm::Sp(dimensionedScalar("one", dimless, 1.0), helper_) -
@@ -49,6 +49,8 @@ void conservativeDiffusion::solve(const scalarField& source, scalarField& value)
 
 void conservativeDiffusion::spread(const scalarField& amount, scalarField& value) {
   solve(amount, value);
+  for (int step = 1; step < steps_; ++step)
+    solve(scalarField(mesh_.V() * value), value);
   // What the solver's tolerance leaves missing is spread evenly. Twice: the first pass meets its own round-off.
   const scalarField& volume = mesh_.V();
   const double whole = gSum(volume);
@@ -60,6 +62,8 @@ void conservativeDiffusion::spread(const scalarField& amount, scalarField& value
 
 void conservativeDiffusion::sample(const scalarField& field, scalarField& sampled) {
   solve(scalarField(mesh_.V() * field), sampled);
+  for (int step = 1; step < steps_; ++step)
+    solve(scalarField(mesh_.V() * sampled), sampled);
 }
 
 } // namespace eccentra::exchange

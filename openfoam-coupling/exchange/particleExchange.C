@@ -44,10 +44,13 @@ particleExchange::particleExchange(const fvMesh& mesh, const ExchangeSettings& s
   const bool spreads = settings.method == VoidFraction::diffusion || settings.method == VoidFraction::gaussian;
   if (spreads && !(settings.length > 0))
     throw wrong("length", settings.length, "give a positive length in metres, such as three particle diameters");
+  if (settings.diffusionSteps < 1)
+    throw wrong("diffusionSteps", settings.diffusionSteps, "give a whole number from 1 on");
   if (!(settings.tolerance > 0 && settings.tolerance < 1))
     throw wrong("tolerance", settings.tolerance, "give a number between 0 and 1, such as 1e-9");
   if (settings.method == VoidFraction::diffusion)
-    diffusion_ = std::make_unique<conservativeDiffusion>(mesh, settings.length, settings.tolerance);
+    diffusion_ =
+        std::make_unique<conservativeDiffusion>(mesh, settings.length, settings.diffusionSteps, settings.tolerance);
   for (auto* guesses : {&forceGuess_, &pressureGuess_, &stressGuess_})
     for (scalarField& guess : *guesses)
       guess.setSize(mesh.nCells(), Zero);

@@ -29,6 +29,8 @@ constexpr unsigned kOffered =
 /// Defaults of lengths, in mean particle diameters.
 constexpr double kDiffusionDiameters = 3.0;
 constexpr double kGaussianDiameters = 1.0;
+/// Particles larger than this many (smallest) cells need a second step of diffusion.
+constexpr double kFineCells = 1.5;
 /// Meetings from one report to the next.
 constexpr label kReportEvery = 10;
 
@@ -134,8 +136,8 @@ bool coupledRun::wanted(const Time& time) {
 }
 
 void coupledRun::run() {
-  refuseUnknownKeywords(properties_, {"link", "demScript", "demLog", "voidFraction", "length", "momentum", "mostSolid",
-                                      "fractionFloor", "tolerance", "report", "runIn"});
+  refuseUnknownKeywords(properties_, {"link", "demScript", "demLog", "voidFraction", "length", "diffusionSteps",
+                                      "momentum", "mostSolid", "fractionFloor", "tolerance", "report", "runIn"});
   const word link(properties_.getOrDefault<word>("link", "solver"));
   if (link != "solver")
     throw inputError(properties_, "link", link, "use solver");
@@ -186,6 +188,10 @@ void coupledRun::makeExchange(const link::Meeting& meeting) {
       (method_ == exchange::VoidFraction::diffusion || method_ == exchange::VoidFraction::gaussian))
     throw inputError(properties_, "length", settings.length,
                      "give the length of spreading in metres (three particle diameters), as the scene starts empty");
+  // An empty scene does not tell the diameter of what will come; the length does.
+  const double expected = diameter > 0 ? diameter : settings.length / diameters;
+  const bool fine = expected > kFineCells * std::cbrt(gMin(mesh_.V().field()));
+  settings.diffusionSteps = properties_.getOrDefault<label>("diffusionSteps", fine ? 2 : 1);
   settings.mostSolid = properties_.getOrDefault<scalar>("mostSolid", settings.mostSolid);
   settings.fractionFloor = properties_.getOrDefault<scalar>("fractionFloor", settings.fractionFloor);
   settings.tolerance = properties_.getOrDefault<scalar>("tolerance", settings.tolerance);

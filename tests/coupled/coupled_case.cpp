@@ -92,11 +92,11 @@ void write_case(const BoxCase& box, const fs::path& folder) {
   control << "startTime 0; endTime 1000; writeControl timeStep; writeInterval 100000; writePrecision 12; deltaT "
           << box.step << ';';
   write(folder / "system/controlDict", "dictionary", control.str());
-  write(
-      folder / "system/fvSchemes", "dictionary",
-      "ddtSchemes { default " + box.time_scheme + "; } gradSchemes { default Gauss linear; } interpolationSchemes { default linear; } "
-      "snGradSchemes { default corrected; } laplacianSchemes { default Gauss linear corrected; } "
-      "divSchemes { default none; div(phi,U) Gauss linear; div((nuEff*dev2(T(grad(U))))) Gauss linear; }");
+  write(folder / "system/fvSchemes", "dictionary",
+        "ddtSchemes { default " + box.time_scheme +
+            "; } gradSchemes { default Gauss linear; } interpolationSchemes { default linear; } "
+            "snGradSchemes { default corrected; } laplacianSchemes { default Gauss linear corrected; } "
+            "divSchemes { default none; div(phi,U) Gauss linear; div((nuEff*dev2(T(grad(U))))) Gauss linear; }");
   solution << "solvers { \"(p|pFinal)\" { solver PCG; preconditioner DIC; relTol 0; tolerance " << box.tolerance
            << "; } \"(U|UFinal)\" { solver PBiCGStab; preconditioner DILU; relTol 0; tolerance " << box.tolerance
            << "; } } PIMPLE { nOuterCorrectors 1; momentumPredictor yes; nCorrectors " << box.correctors << "; }";
