@@ -61,6 +61,53 @@ tmp<volScalarField> yieldStressViscosity::law() const {
   return result;
 }
 
+namespace {
+
+/// Strain rate sqrt(2 D:D) of a face from the interpolated gradient and the compact derivative along the unit normal n.
+scalar faceRate(tensor gradient, const vector& n, const vector& derivative) {
+  gradient += n * (derivative - (n & gradient));
+  return Foam::sqrt(2.0) * mag(symm(gradient));
+}
+
+} // namespace
+
+tmp<surfaceScalarField> yieldStressViscosity::faceNu(const volTensorField& gradU) const {
+  const fvMesh& mesh = U_.mesh();
+  tmp<surfaceScalarField> result(new surfaceScalarField(IOobject("faceNu", U_.time().timeName(), mesh), mesh,
+                                                        dimensionedScalar("initial", dimViscosity, 0)));
+  scalarField& inner = result.ref().primitiveFieldRef();
+  const scalarField& weights = mesh.weights().primitiveField();
+  const scalarField& delta = mesh.nonOrthDeltaCoeffs().primitiveField();
+  const vectorField& Sf = mesh.Sf().primitiveField();
+  const scalarField& magSf = mesh.magSf().primitiveField();
+  forAll(inner, facei) {
+    const label own = mesh.owner()[facei], nei = mesh.neighbour()[facei];
+    const tensor gradient = weights[facei] * gradU[own] + (1 - weights[facei]) * gradU[nei];
+    inner[facei] = faceRate(gradient, Sf[facei] / magSf[facei], delta[facei] * (U_[nei] - U_[own]));
+  }
+  evaluate(kinematic_, inner);
+  forAll(mesh.boundary(), patchi) {
+    const fvPatch& patch = mesh.boundary()[patchi];
+    scalarField& values = result.ref().boundaryFieldRef()[patchi];
+    if (!patch.coupled()) {
+      // The gradient of a boundary has the derivative to the wall already.
+      values = Foam::sqrt(2.0) * mag(symm(gradU.boundaryField()[patchi]));
+      evaluate(kinematic_, values);
+      continue;
+    }
+    const tensorField gradient(patch.weights() * gradU.boundaryField()[patchi].patchInternalField() +
+                               (1 - patch.weights()) * gradU.boundaryField()[patchi].patchNeighbourField());
+    const fvPatchVectorField& U = U_.boundaryField()[patchi];
+    const vectorField derivative(patch.deltaCoeffs() * (U.patchNeighbourField() - U.patchInternalField()));
+    const vectorField n(patch.nf());
+    forAll(values, i) {
+      values[i] = faceRate(gradient[i], n[i], derivative[i]);
+    }
+    evaluate(kinematic_, values);
+  }
+  return result;
+}
+
 void yieldStressViscosity::initialise() {
   nu_ = law();
 }

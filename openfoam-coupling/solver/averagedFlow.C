@@ -21,6 +21,7 @@
 #include "fvmLaplacian.H"
 #include "fvmSup.H"
 #include "inputError.H"
+#include "rheology/yieldStressViscosity.H"
 #include "zeroGradientFvPatchFields.H"
 
 #include <chrono>
@@ -31,7 +32,6 @@ namespace {
 
 // The names under which stock pimpleFoam looks its schemes up: one fvSchemes serves both solvers.
 const char* const convectionScheme = "div(phi,U)";
-const char* const stressScheme = "div((nuEff*dev2(T(grad(U)))))";
 const char* const diffusionScheme = "laplacian(nuEff,U)";
 
 // A solid volume that changes by more than this share of the section within one step is no round-off.
@@ -95,8 +95,18 @@ averagedFlow::coupledFields::coupledFields(const fvMesh& mesh, const surfaceScal
 averagedFlow::averagedFlow(fvMesh& mesh, particles presence, stressShare share)
     : mesh_(mesh), pimple_(mesh), share_(share), U_(input("U", mesh), mesh), p_(input("p", mesh), mesh),
       phi_(state("phi", mesh), fvc::flux(U_)),
-      coupled_(presence == particles::coupled ? new coupledFields(mesh, phi_) : nullptr), fluid_(U_, phi_),
-      rho_(readDensity(fluid_)), drive_(mesh, rho_) {
+      coupled_(presence == particles::coupled ? new coupledFields(mesh, phi_) : nullptr),
+      transportProperties_(
+          IOobject("transportProperties", mesh.time().constant(), mesh, IOobject::MUST_READ, IOobject::NO_WRITE)),
+      viscosity_(viscosityModel::New("nu", transportProperties_, U_, phi_)), rho_(readDensity(transportProperties_)),
+      drive_(mesh, rho_) {
+  const word where = transportProperties_.getOrDefault<word>("faceViscosity", "strainRate");
+  if (where != "strainRate" && where != "interpolated") {
+    throw inputError(transportProperties_, "faceViscosity", where, "give strainRate or interpolated");
+  }
+  if (where == "strainRate") {
+    faceLaw_ = dynamic_cast<const viscosityModels::yieldStressViscosity*>(&viscosity_());
+  }
   keepOldTimes(U_);
   keepOldTimes(phi_);
   mesh_.setFluxRequired(p_.name());
@@ -156,7 +166,7 @@ void averagedFlow::advance() {
     drive_.correct(U_, coupled_.valid() ? &coupled_->alpha : nullptr);
     if (pimple_.turbCorr()) {
       const stopwatch watch(cost_.rheology);
-      fluid_.correct();
+      viscosity_->correct();
     }
   }
   if (coupled_.valid()) {
@@ -180,11 +190,27 @@ void averagedFlow::checkSolidVolume() const {
   }
 }
 
+tmp<surfaceScalarField> averagedFlow::faceViscosity(const volTensorField& gradU) const {
+  if (faceLaw_) {
+    return faceLaw_->faceNu(gradU);
+  }
+  return fvc::interpolate(viscosity_->nu(), "interpolate(nuEff)");
+}
+
+namespace {
+
+/// div(nu dev2(grad U)^T), the part of the stress that the laplacian leaves.
+tmp<volVectorField> transposedStress(const surfaceScalarField& nu, const volTensorField& gradU) {
+  return fvc::div(nu * fvc::dotInterpolate(gradU.mesh().Sf(), dev2(T(gradU))));
+}
+
+} // namespace
+
 tmp<fvVectorMatrix> averagedFlow::momentumMatrix() {
   const stopwatch watch(cost_.momentum);
-  const tmp<volScalarField> nu = fluid_.nu();
-  tmp<fvVectorMatrix> stress(-fvm::laplacian(nu(), U_, diffusionScheme) -
-                             fvc::div(nu() * dev2(T(fvc::grad(U_))), stressScheme));
+  const tmp<volTensorField> gradU = fvc::grad(U_);
+  const tmp<surfaceScalarField> nu = faceViscosity(gradU());
+  tmp<fvVectorMatrix> stress(-fvm::laplacian(nu(), U_, diffusionScheme) - transposedStress(nu(), gradU()));
   tmp<fvVectorMatrix> tUEqn;
   if (!coupled_.valid()) {
     tUEqn = fvm::ddt(U_) + fvm::div(phi_, U_, convectionScheme) + stress;
@@ -254,8 +280,8 @@ void averagedFlow::correctPressure(fvVectorMatrix& UEqn) {
   // rAtU: response of U to -grad p (model A: times alpha), of the whole row if consistent.
   tmp<volScalarField> rAtU(rAU);
   if (pimple_.consistent()) {
-// The stock solvers never let the row sum A - H1 fall below A/10. Where viscosity makes A large (an unyielded plug) that
-    // understates the response to the pressure, and the scheme diverges at any time step above some 10 dx^2/nu.
+    // The stock solvers never let the row sum A - H1 fall below A/10. Where viscosity makes A large (an unyielded plug)
+    // that understates the response to the pressure, and the scheme diverges at any time step above some 10 dx^2/nu.
     rAtU = 1.0 / max(1.0 / rAU - UEqn.H1(), leastRowSum / rAU);
     tmp<surfaceScalarField> shift = fvc::interpolate(rAtU() - rAU) * fvc::snGrad(p_) * mesh_.magSf();
     if (c) {
@@ -320,9 +346,10 @@ tmp<volVectorField> averagedFlow::vorticity() const {
 }
 
 tmp<volVectorField> averagedFlow::stressDivergence() const {
-  const tmp<volScalarField> nu = fluid_.nu();
+  const tmp<volTensorField> gradU = fvc::grad(U_);
+  const tmp<surfaceScalarField> nu = faceViscosity(gradU());
   return dimensionedScalar("rho", dimDensity, rho_) *
-         (fvc::laplacian(nu(), U_, diffusionScheme) + fvc::div(nu() * dev2(T(fvc::grad(U_))), stressScheme));
+         (fvc::laplacian(nu(), U_, diffusionScheme) + transposedStress(nu(), gradU()));
 }
 
 vector averagedFlow::superficialVelocity() const {
