@@ -93,15 +93,12 @@ template <class Wall> int FixWallGranCluster::add_sphere(const Wall& wall, int i
   const int wall_type = words_.type;
   for (int k = 0; k < 3; ++k) {
     block.normal[k][m] = normal[k];
-    block.arm_a[k][m] = 0;
-    block.arm_b[k][m] = 0;
+    block.arm[k][m] = 0;
     block.velocity[k][m] = atom->v[i][k] - (wall.velocity[k] + turning[k]);
-    block.omega_a[k][m] = atom->omega[i][k];
-    block.omega_b[k][m] = 0;
+    block.spin[k][m] = atom->omega[i][k]; // the wall's own is in its velocity
     block.history[k][m] = entries[0].shear[k];
   }
   block.radius_a[m] = radius;
-  block.radius_b[m] = 0.5 * overlap;
   block.overlap[m] = overlap;
   block.contact_radius[m] = std::sqrt(radius * overlap);
   block.mass[m] = atom->rmass[i];
@@ -123,7 +120,7 @@ template <class Wall> void FixWallGranCluster::scatter_spheres(const Wall& wall,
     for (int k = 0; k < 3; ++k) {
       entry.shear[k] = block.history[k][m];
       force[k] = block.force[k][m];
-      torque[k] = block.torque_a[k][m];
+      torque[k] = block.torque[k][m];
       from[k] = atom->x[i][k] - wall.reference[k];
     }
     if (words_.rolling) {
