@@ -49,7 +49,31 @@ class OptionSetting : public Setting {
   std::vector<std::pair<std::string, int>> options_;
 };
 
+class ShapeSetting : public Setting {
+ public:
+  explicit ShapeSetting(std::vector<std::string>& target) : Setting("shape", 2), target_(target) {}
+
+  int parseArguments(char** args) override {
+    if (name != args[0])
+      return 0;
+    const int words = std::string(args[1]) == "stl" ? 4 : 2;
+    target_.assign(args + 1, args + 1 + words);
+    return 1 + words;
+  }
+
+  void print_value(FILE* out) override { std::fprintf(out, "%s", target_.empty() ? "none" : target_.front().c_str()); }
+
+ private:
+  std::vector<std::string>& target_;
+};
+
 } // namespace
+
+void register_shape_words(Settings& settings, std::vector<std::string>& target) {
+  Setting*& entry = (settings.*host::Published<host::SettingsList>::pointer)["shape"];
+  if (!entry)
+    entry = new ShapeSetting(target);
+}
 
 void register_option(Settings& settings, const std::string& model, const std::string& name, int& target,
                      const std::vector<std::pair<std::string, int>>& options) {

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sorts directions into the cells of a cube and finds, per cell, every sub-sphere that may carry a contact there.
+#include "rolling/support_table.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace eccentra::rolling {
+
+SupportTable::SupportTable(const shape::ClusterShape& shape) {
+  if (shape.surface_spheres().size() > static_cast<std::size_t>(kMostSpheres))
+    throw std::invalid_argument("shape " + shape.name() + " has " + std::to_string(shape.surface_spheres().size()) +
+                                " surface spheres: rolling_friction eccentric takes at most " +
+                                std::to_string(kMostSpheres));
+  const double unit = 1.0 / shape.equivalent_radius();
+  for (const int k : shape.surface_spheres()) {
+    const shape::Sphere& sphere = shape.spheres()[k];
+    spheres_.push_back({sphere.centre * unit, sphere.radius * unit});
+  }
+  keep_corners();
+  fill_cells();
+}
+
+void SupportTable::keep_corners() {
+  constexpr double tie = 1e-6; // of R_eq
+  std::vector<char> corner(spheres_.size(), spheres_.size() == 1);
+  for (int cell = 0; cell < 6 * kCellsPerEdge * kCellsPerEdge; ++cell) {
+    double half_angle = 0;
+    const Eigen::Vector3d d = centre_of(cell, half_angle);
+    double first = -HUGE_VAL;
+    double second = -HUGE_VAL;
+    std::size_t best = 0;
+    for (std::size_t k = 0; k < spheres_.size(); ++k) {
+      const double here = spheres_[k].centre.dot(d) + spheres_[k].radius;
+      second = std::max(second, std::min(here, first));
+      best = here > first ? k : best;
+      first = std::max(first, here);
+    }
+    if (first > second + tie)
+      corner[best] = true;
+  }
+  std::vector<shape::Sphere> corners;
+  for (std::size_t k = 0; k < spheres_.size(); ++k)
+    if (corner[k])
+      corners.push_back(spheres_[k]);
+  if (!corners.empty()) // all tie everywhere: one sphere, given several times
+    spheres_ = corners;
+}
+
+Eigen::Vector3d SupportTable::centre_of(int cell, double& half_angle) {
+  const int face = cell / (kCellsPerEdge * kCellsPerEdge);
+  const int row = cell / kCellsPerEdge % kCellsPerEdge;
+  const int column = cell % kCellsPerEdge;
+  const int axis = face / 2;
+  const int next = axis == 2 ? 0 : axis + 1;
+  const int last = axis == 0 ? 2 : axis - 1;
+  const auto point = [&](double u, double v) {
+    Eigen::Vector3d p;
+    p[axis] = face % 2 ? -1.0 : 1.0;
+    p[next] = 2.0 * u / kCellsPerEdge - 1.0;
+    p[last] = 2.0 * v / kCellsPerEdge - 1.0;
+    return p.normalized().eval();
+  };
+  const Eigen::Vector3d centre = point(row + 0.5, column + 0.5);
+  half_angle = 0;
+  for (const int u : {0, 1})
+    for (const int v : {0, 1})
+      half_angle = std::max(half_angle, std::acos(std::min(1.0, centre.dot(point(row + u, column + v)))));
+  return centre;
+}
+
+void SupportTable::fill_cells() {
+  const int cells = 6 * kCellsPerEdge * kCellsPerEdge;
+  first_.reserve(cells + 1);
+  for (int cell = 0; cell < cells; ++cell) {
+    first_.push_back(static_cast<int>(candidates_.size()));
+    double half_angle = 0;
+    const Eigen::Vector3d d = centre_of(cell, half_angle);
+    // k carries nothing in this cell if some m reaches further by kDeepest wherever in the cell.
+    const auto hidden_by = [&](const shape::Sphere& k, const shape::Sphere& m) {
+      const Eigen::Vector3d apart = k.centre - m.centre;
+      const double distance = apart.norm();
+      const double angle = distance > 0.0 ? std::acos(std::clamp(apart.dot(d) / distance, -1.0, 1.0)) : 0.0;
+      return distance * std::cos(std::max(0.0, angle - half_angle)) + k.radius - m.radius < -kDeepest;
+    };
+    const double reached = reach(d);
+    std::vector<const shape::Sphere*> near; // these carry in the middle of the cell already
+    for (const shape::Sphere& sphere : spheres_)
+      if (reached - sphere.centre.dot(d) - sphere.radius < kDeepest)
+        near.push_back(&sphere);
+    // Over the cell a sphere's reach changes by no more than its distance from the centre times the angle.
+    for (std::size_t k = 0; k < spheres_.size(); ++k) {
+      const double gap = reached - spheres_[k].centre.dot(d) - spheres_[k].radius;
+      const bool far = gap > kDeepest + half_angle * (spheres_[k].centre.norm() + near.front()->centre.norm());
+      if (gap < kDeepest || (!far && std::none_of(near.begin(), near.end(),
+                                                  [&](const shape::Sphere* m) { return hidden_by(spheres_[k], *m); })))
+        candidates_.push_back(static_cast<std::uint16_t>(k));
+    }
+  }
+  first_.push_back(static_cast<int>(candidates_.size()));
+  for (int cell = 0; cell < cells; ++cell) {
+    double half_angle = 0;
+    const Eigen::Vector3d d = centre_of(cell, half_angle);
+    largest_lever_ = std::max(largest_lever_, carried(d, 0.0).arm.cross(d).norm());
+  }
+}
+
+double SupportTable::reach(const Eigen::Vector3d& d) const {
+  double reach = -HUGE_VAL;
+  for (const shape::Sphere& sphere : spheres_)
+    reach = std::max(reach, sphere.centre.dot(d) + sphere.radius);
+  return reach;
+}
+
+} // namespace eccentra::rolling
