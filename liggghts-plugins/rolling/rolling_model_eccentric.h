@@ -85,9 +85,7 @@ template <> class RollingModel<ROLLING_ECCENTRIC> : public RollingModelBase {
     // r_c x F_n; the damping acts on the normal velocity that the spin gives the sub-spheres.
     const Eigen::Vector3d lever = radius * (to_world * carried.arm).cross(outward);
     Eigen::Vector3d torque = contact.Fn * lever;
-    if (damped_ && !carried.several) {
-      torque -= (contact.gamman * lever.dot(spin)) * lever;
-    } else if (damped_) {
+    if (damped_) {
       // Sum over the sub-spheres of (c x n)((c x n) . w) = (C (n x w)) x n with C the mean of c c^T.
       const Eigen::Vector3d across = to_world.transpose() * outward.cross(spin);
       torque -= (contact.gamman * radius * radius) * (to_world * (carried.spread * across)).cross(outward);

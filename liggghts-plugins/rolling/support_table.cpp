@@ -6,23 +6,39 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 
 namespace eccentra::rolling {
 
 SupportTable::SupportTable(const shape::ClusterShape& shape) {
-  if (shape.surface_spheres().size() > static_cast<std::size_t>(kMostSpheres))
-    throw std::invalid_argument("shape " + shape.name() + " has " + std::to_string(shape.surface_spheres().size()) +
-                                " surface spheres: rolling_friction eccentric takes at most " +
-                                std::to_string(kMostSpheres));
   const double unit = 1.0 / shape.equivalent_radius();
   for (const int k : shape.surface_spheres()) {
     const shape::Sphere& sphere = shape.spheres()[k];
     spheres_.push_back({sphere.centre * unit, sphere.radius * unit});
   }
   keep_corners();
-  fill_cells();
+  if (spheres_.size() <= static_cast<std::size_t>(kFewCorners))
+    append_blocks(spheres_, blocks_);
+  else
+    fill_cells();
+  for (int cell = 0; cell < 6 * kCellsPerEdge * kCellsPerEdge; ++cell) {
+    double half_angle = 0;
+    const Eigen::Vector3d d = centre_of(cell, half_angle);
+    largest_lever_ = std::max(largest_lever_, carried(d, 0.0).arm.cross(d).norm());
+  }
+}
+
+void SupportTable::append_blocks(const std::vector<shape::Sphere>& spheres, std::vector<Block>& blocks) {
+  constexpr double nowhere = -1e3; // radius of a place that is not taken
+  for (std::size_t k = 0; k < spheres.size(); ++k) {
+    const int lane = static_cast<int>(k % kLanes);
+    if (lane == 0)
+      blocks.push_back({Lanes::Zero(), Lanes::Zero(), Lanes::Zero(), Lanes::Constant(nowhere)});
+    Block& block = blocks.back();
+    block.x[lane] = spheres[k].centre[0];
+    block.y[lane] = spheres[k].centre[1];
+    block.z[lane] = spheres[k].centre[2];
+    block.r[lane] = spheres[k].radius;
+  }
 }
 
 void SupportTable::keep_corners() {
@@ -77,7 +93,8 @@ void SupportTable::fill_cells() {
   const int cells = 6 * kCellsPerEdge * kCellsPerEdge;
   first_.reserve(cells + 1);
   for (int cell = 0; cell < cells; ++cell) {
-    first_.push_back(static_cast<int>(candidates_.size()));
+    first_.push_back(static_cast<int>(cell_blocks_.size()));
+    std::vector<shape::Sphere> candidates;
     double half_angle = 0;
     const Eigen::Vector3d d = centre_of(cell, half_angle);
     // k carries nothing in this cell if some m reaches further by kDeepest wherever in the cell.
@@ -98,15 +115,11 @@ void SupportTable::fill_cells() {
       const bool far = gap > kDeepest + half_angle * (spheres_[k].centre.norm() + near.front()->centre.norm());
       if (gap < kDeepest || (!far && std::none_of(near.begin(), near.end(),
                                                   [&](const shape::Sphere* m) { return hidden_by(spheres_[k], *m); })))
-        candidates_.push_back(static_cast<std::uint16_t>(k));
+        candidates.push_back(spheres_[k]);
     }
+    append_blocks(candidates, cell_blocks_);
   }
-  first_.push_back(static_cast<int>(candidates_.size()));
-  for (int cell = 0; cell < cells; ++cell) {
-    double half_angle = 0;
-    const Eigen::Vector3d d = centre_of(cell, half_angle);
-    largest_lever_ = std::max(largest_lever_, carried(d, 0.0).arm.cross(d).norm());
-  }
+  first_.push_back(static_cast<int>(cell_blocks_.size()));
 }
 
 double SupportTable::reach(const Eigen::Vector3d& d) const {

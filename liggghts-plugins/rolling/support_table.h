@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <vector>
 
 namespace eccentra::rolling {
@@ -17,8 +16,7 @@ namespace eccentra::rolling {
 /// What the sub-spheres that carry a contact do, in units of R_eq: multiply `arm` by R, `spread` by R^2.
 struct CarriedContact {
   Eigen::Vector3d arm;    ///< r_c of eq (32): mean of the centres, weighted by their share of the force
-  Eigen::Matrix3d spread; ///< mean of c c^T, weighted alike; only where several carry
-  bool several;           ///< else `arm` is the centre of the only one
+  Eigen::Matrix3d spread; ///< mean of c c^T, weighted alike
 };
 
 /// Built once per shape, in units of its equivalent radius R_eq; directions in the body frame. Knows only the
@@ -39,20 +37,30 @@ class SupportTable {
   /// How far the shape reaches in direction d, max(c . d + r), in units of R_eq.
   double reach(const Eigen::Vector3d& d) const;
 
-  static constexpr int kMostSpheres = 1024;
   static constexpr double kDeepest = 0.01;
 
  private:
-  static constexpr int kCellsPerEdge = 64; ///< of each face of the cube that directions are sorted into
+  static constexpr int kCellsPerEdge = 32; ///< of each face of the cube that directions are sorted into
 
   static int cell_of(const Eigen::Vector3d& d);
   static Eigen::Vector3d centre_of(int cell, double& half_angle);
   void keep_corners();
   void fill_cells();
 
-  std::vector<shape::Sphere> spheres_;
-  std::vector<int> first_; ///< per cell: its first candidate; one more entry at the end
-  std::vector<std::uint16_t> candidates_;
+  static constexpr int kLanes = 8;
+  static constexpr int kFewCorners = 4 * kLanes;
+  using Lanes = Eigen::Array<double, kLanes, 1>;
+  /// Eight sub-spheres side by side; the last block of a list is filled up with ones that reach nowhere.
+  struct Block {
+    Lanes x, y, z, r;
+    Lanes reach(const Eigen::Vector3d& d) const { return x * d[0] + y * d[1] + z * d[2] + r; }
+  };
+  static void append_blocks(const std::vector<shape::Sphere>& spheres, std::vector<Block>& blocks);
+
+  std::vector<shape::Sphere> spheres_; ///< corners
+  std::vector<Block> blocks_;          ///< all corners, if they are few
+  std::vector<int> first_;             ///< per cell: its first block; one more entry at the end
+  std::vector<Block> cell_blocks_;
   double largest_lever_ = 0;
 };
 
@@ -71,59 +79,50 @@ inline int SupportTable::cell_of(const Eigen::Vector3d& d) {
 }
 
 inline CarriedContact SupportTable::carried(const Eigen::Vector3d& d, double depth) const {
-  const int cell = cell_of(d);
-  const std::uint16_t* const candidate = candidates_.data() + first_[cell];
-  const int count = first_[cell + 1] - first_[cell];
-  CarriedContact contact;
-  contact.several = false;
-  if (count == 1) {
-    contact.arm = spheres_[candidate[0]].centre;
-    return contact;
-  }
-  double reach[kMostSpheres];
-  double furthest = -HUGE_VAL;
-  double second = -HUGE_VAL;
-  int best = 0;
-  for (int k = 0; k < count; ++k) {
-    const shape::Sphere& sphere = spheres_[candidate[k]];
-    reach[k] = sphere.centre.dot(d) + sphere.radius;
-    second = std::max(second, std::min(reach[k], furthest));
-    best = reach[k] > furthest ? k : best;
-    furthest = std::max(furthest, reach[k]);
-  }
-  const double level = furthest - std::min(depth, kDeepest);
-  if (second <= level) {
-    contact.arm = spheres_[candidate[best]].centre;
-    return contact;
-  }
-  contact.several = true;
-  contact.arm.setZero();
-  double sum = 0;
-  double xx = 0;
-  double xy = 0;
-  double xz = 0;
-  double yy = 0;
-  double yz = 0;
-  double zz = 0;
-  for (int k = 0; k < count; ++k) {
-    const double share = reach[k] - level;
-    if (share <= 0.0)
-      continue;
-    const Eigen::Vector3d& c = spheres_[candidate[k]].centre;
-    const Eigen::Vector3d part = share * c;
+  // Few corners: all of them, without a branch. Many: those that the cell of the direction lists.
+  const bool few = !blocks_.empty();
+  const int cell = few ? 0 : cell_of(d);
+  const Block* const begin = few ? blocks_.data() : cell_blocks_.data() + first_[cell];
+  const Block* const end = few ? begin + blocks_.size() : cell_blocks_.data() + first_[cell + 1];
+  Lanes furthest = begin->reach(d);
+  for (const Block* block = begin + 1; block < end; ++block)
+    furthest = furthest.max(block->reach(d));
+  // At no depth the furthest sub-sphere carries all.
+  constexpr double shallowest = 1e-9;
+  const double level = furthest.maxCoeff() - std::clamp(depth, shallowest, kDeepest);
+  Lanes share = (begin->reach(d) - level).max(0.0);
+  Lanes sum = share;
+  Lanes sx = share * begin->x;
+  Lanes sy = share * begin->y;
+  Lanes sz = share * begin->z;
+  Lanes xx = sx * begin->x;
+  Lanes xy = sx * begin->y;
+  Lanes xz = sx * begin->z;
+  Lanes yy = sy * begin->y;
+  Lanes yz = sy * begin->z;
+  Lanes zz = sz * begin->z;
+  for (const Block* block = begin + 1; block < end; ++block) {
+    share = (block->reach(d) - level).max(0.0);
+    const Lanes bx = share * block->x;
+    const Lanes by = share * block->y;
+    const Lanes bz = share * block->z;
     sum += share;
-    contact.arm += part;
-    xx += part[0] * c[0];
-    xy += part[0] * c[1];
-    xz += part[0] * c[2];
-    yy += part[1] * c[1];
-    yz += part[1] * c[2];
-    zz += part[2] * c[2];
+    sx += bx;
+    sy += by;
+    sz += bz;
+    xx += bx * block->x;
+    xy += bx * block->y;
+    xz += bx * block->z;
+    yy += by * block->y;
+    yz += by * block->z;
+    zz += bz * block->z;
   }
-  const double scale = 1.0 / sum;
-  contact.arm *= scale;
-  contact.spread << xx, xy, xz, xy, yy, yz, xz, yz, zz;
-  contact.spread *= scale;
+  const double scale = 1.0 / sum.sum();
+  CarriedContact contact;
+  contact.arm = scale * Eigen::Vector3d(sx.sum(), sy.sum(), sz.sum());
+  const double cross[3] = {scale * xy.sum(), scale * xz.sum(), scale * yz.sum()};
+  contact.spread << scale * xx.sum(), cross[0], cross[1], cross[0], scale * yy.sum(), cross[2], cross[1], cross[2],
+      scale * zz.sum();
   return contact;
 }
 
