@@ -72,8 +72,10 @@ void Output::add_dump(int narg, char** arg) {
   std::vector<char*> stock_arg(arg, arg + 5);
   stock_arg[2] = style.data();
   stock(this, 5, stock_arg.data());
+  // Ours first: if it refuses its words, what is in the list is still whole when LIGGGHTS takes itself down.
+  Dump* const our_dump = ours->dump(lmp, narg, arg);
   delete dump[ndump - 1];
-  dump[ndump - 1] = ours->dump(lmp, narg, arg);
+  dump[ndump - 1] = our_dump;
 }
 
 } // namespace LAMMPS_NS
