@@ -160,10 +160,12 @@ void PairGranCluster::gather(const NearPair& p, const double* offset, const int*
   int m = first;
   for (int n = 0; n < count; ++n) {
     const int id = ids[n], ka = contact_sphere_a(id), kb = contact_sphere_b(id);
-    const double body_a[3] = {a.x[ka], a.y[ka], a.z[ka]}, body_b[3] = {b.x[kb], b.y[kb], b.z[kb]};
-    double arm[3], arm_b[3];
-    to_world(rotation_a, body_a, arm);
-    to_world(rotation_b, body_b, arm_b);
+    double arm[3] = {0, 0, 0}, arm_b[3] = {0, 0, 0};
+    if (!p.direct) {
+      const double body_a[3] = {a.x[ka], a.y[ka], a.z[ka]}, body_b[3] = {b.x[kb], b.y[kb], b.z[kb]};
+      to_world(rotation_a, body_a, arm);
+      to_world(rotation_b, body_b, arm_b);
+    }
     const double sx = arm[0] - arm_b[0] - offset[0], sy = arm[1] - arm_b[1] - offset[1];
     const double sz = arm[2] - arm_b[2] - offset[2];
     const double ra = a.r[ka] + p.extra_a, rb = b.r[kb] + p.extra_b;

@@ -58,8 +58,11 @@ inline void angular_momentum(const double* r, const double* inertia, const doubl
 inline void sinc_cos(double h2, double& sinc, double& cosine) {
   constexpr double series_limit = 0.01; // the first term left out is below 1e-17 there
   if (h2 < series_limit) {
-    sinc = 1 - h2 / 6 * (1 - h2 / 20 * (1 - h2 / 42 * (1 - h2 / 72)));
-    cosine = 1 - h2 / 2 * (1 - h2 / 12 * (1 - h2 / 30 * (1 - h2 / 56)));
+    // Products, as a chain of divisions would take most of the time of a step.
+    constexpr double s3 = -1. / 6, s5 = 1. / 120, s7 = -1. / 5040, s9 = 1. / 362880;
+    constexpr double c2 = -1. / 2, c4 = 1. / 24, c6 = -1. / 720, c8 = 1. / 40320;
+    sinc = 1 + h2 * (s3 + h2 * (s5 + h2 * (s7 + h2 * s9)));
+    cosine = 1 + h2 * (c2 + h2 * (c4 + h2 * (c6 + h2 * c8)));
   } else {
     const double h = std::sqrt(h2);
     sinc = std::sin(h) / h;

@@ -254,10 +254,12 @@ void FixWallGranCluster::share_damping(int i, std::size_t first) {
                       bodies_->shapes()[bodies_->shape_id(i)].inertia_per_mass().cwiseInverse().asDiagonal() *
                       rotation.transpose();
   }
+  double lever = 1;
   for (std::size_t m = first; m < touches_.size(); ++m) {
     const Eigen::Vector3d& n = touches_[m].normal;
-    touches_[m].share =
-        all.damping_share(stiffness(touches_[m]), n.x(), n.y(), n.z()) * std::sqrt(impact.ratio(n, inverse_inertia));
+    if (m == first || n != touches_[m - 1].normal) // a plane has one normal for all
+      lever = std::sqrt(impact.ratio(n, inverse_inertia));
+    touches_[m].share = all.damping_share(stiffness(touches_[m]), n.x(), n.y(), n.z()) * lever;
   }
 }
 
