@@ -44,7 +44,7 @@ void flowProgress::line() const {
   const scalar done = runTime_.value() - startTime_;
   const scalar left = done > 0 ? elapsed() * (runTime_.endTime().value() - runTime_.value()) / done : 0;
   if (Pstream::master()) {
-    std::printf("t %.4g of %.4g s  dt %.3g s  Co %.3g  <alpha U> %.4g m/s  G %.4g Pa/m  %.3g ms/step  left %d:%02d\n",
+    std::printf("t %.4g of %.4g s  dt %.3g s  Co %.3g  <alpha U> %.6g m/s  G %.5g Pa/m  %.3g ms/step  left %d:%02d\n",
                 runTime_.value(), runTime_.endTime().value(), runTime_.deltaTValue(), courant, mag(superficial),
                 flow_.drivingPressureGradient(), 1e3 * elapsed() / steps_, int(left) / 60, int(left) % 60);
     std::fflush(stdout);

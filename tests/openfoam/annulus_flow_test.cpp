@@ -12,7 +12,7 @@ namespace {
 
 // A step so long that each one is a Picard iteration of the steady problem.
 const char* const kLongStep = "1000";
-constexpr double kSteady = 1e-6;
+constexpr double kSteady = 5e-6;
 
 std::string herschel_bulkley(double tau0, double mu_y) {
   return "tau0 " + std::to_string(tau0) + "; k 0.28; n 0.65; muY " + std::to_string(mu_y) + ";";
