@@ -139,6 +139,42 @@ TEST(Momentum, SemiImplicitExchangeReturnsWhatItHeldBack) {
   }
 }
 
+TEST(Momentum, BalancesWhileTheFractionMoves) {
+  // Impulse: of the particles, and of the pressure on the fluid's share of each cell. Iterated to convergence, so that
+  // what is left is what the lagged fluxes withheld, and that is accounted for.
+  FlowCase flow_case("momentum_moving");
+  const double step = 5e-3;
+  flow_case.control({{"deltaT", std::to_string(step)}, {"endTime", "1e6"}});
+  flow_case.numerics("Euler", "nCorrectors 2; consistent yes; nOuterCorrectors 12;");
+  flow_case.periodic_box_mesh(kLength, 8, 4, 4);
+  const std::string all = "\".*\" { type cyclic; }";
+  flow_case.fields("uniform (0 0 0)", all, all);
+  flow_case.newtonian(1000, 0.1);
+  averagedFlow& flow = flow_case.flow(averagedFlow::particles::coupled);
+  const Foam::scalarField& V = flow_case.mesh().V().field();
+  const ManufacturedFraction motion;
+  set_fraction(flow_case, motion, 8, 0);
+  flow.resetFractionHistory();
+  double impulse = 0;
+  for (int i = 0; i < 30; ++i) {
+    flow_case.advance(1, [&](double t) {
+      set_fraction(flow_case, motion, 8, t);
+      auto& force = flow.particleForce().primitiveFieldRef();
+      forAll(force, celli) {
+        force[celli] = Foam::vector(1 + std::sin(kWave * flow_case.mesh().C()[celli].x()), 0, 0);
+      }
+      flow.exchange() = Foam::dimensionedScalar("K", Foam::dimless / Foam::dimTime, 50);
+      impulse += step * Foam::gSum((force.component(0) * V)());
+    });
+    const auto gradient = flow.pressureGradient();
+    impulse -= step / flow.rho() *
+               Foam::gSum((gradient().primitiveField().component(0) * flow.alpha().primitiveField() * V)());
+  }
+  const double momentum = Foam::gSum((flow.alpha().primitiveField() * flow.U().primitiveField().component(0) * V)()) +
+                          step * Foam::gSum((flow.withheldForce().primitiveField().component(0) * V)());
+  EXPECT_NEAR(momentum, impulse, 1e-8 * impulse);
+}
+
 void annulus(FlowCase& flow_case, double eccentricity, const std::string& drive) {
   flow_case.annulus_mesh(eccentricity, 6, 24, 4, 0.05);
   flow_case.annulus_fields(eccentricity, 5.235988);
