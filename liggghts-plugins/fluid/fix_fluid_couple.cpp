@@ -111,7 +111,7 @@ void FixFluidCouple::init() {
       refuse("link solver needs a fluid solver that hosts this script: start annulusFoam in the case folder instead of "
              "this program, or use link socket ADDRESS");
   } else {
-    refuse("link socket is not built into this library");
+    refuse("link socket is not available in this version: use link solver and start annulusFoam in the case folder");
   }
 }
 

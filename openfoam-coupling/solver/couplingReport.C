@@ -3,6 +3,8 @@
 // Formats the balances and costs of a coupled run.
 #include "couplingReport.H"
 
+#include "inputError.H"
+
 #include "OSspecific.H"
 #include "Time.H"
 
@@ -120,6 +122,10 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
   const double solid = totals.volume > 0 ? totals.volume : 1.0;
   const vector centre(vectorOf(totals.volume_position) / solid);
   const double meanVelocity = flow.superficialVelocity() & axis_;
+  if (!std::isfinite(meanVelocity) || !std::isfinite(totals.fastest))
+    throw inputError("the coupled run has blown up at t = " + mesh_.time().timeName() + " s: the " +
+                     (std::isfinite(totals.fastest) ? "fluid's velocity" : "particles' velocity") +
+                     " is no number; reduce deltaT and the DEM time step together, or every");
   const double courant = flow.CourantNo();
   const double continuity = flow.continuityError();
   const vector momentum(totalMomentum(flow, exchange, meeting));
