@@ -59,7 +59,7 @@ couplingReport::couplingReport(const fvMesh& mesh, const link::DemTerms& dem, in
              "pressure_error,dem_seconds,fluid_seconds,exchange_seconds,link_seconds,"
              "inserted,left,inserted_mass,mass,global_continuity_error,"
              "momentum_x,momentum_y,momentum_z,fastest_fluid\n";
-    csv_->precision(15);
+    csv_->precision(13);
   }
 }
 

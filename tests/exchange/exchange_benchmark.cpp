@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Seconds per exchange of 30,000 particles: finding cells, deposition and sampling, with and without diffusion.
+#include "exchange/particleExchange.H"
+
+#include "Time.H"
+#include "argList.H"
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <random>
+
+namespace {
+
+using namespace eccentra;
+using namespace eccentra::exchange;
+
+constexpr int kParticles = 30000;
+constexpr double kHole = 0.0635, kPipe = 0.02413, kOffset = 0.019685, kLength = 0.1, kDiameter = 1e-3;
+
+Foam::fvMesh* sharedMesh = nullptr;
+
+void exchangeOf(benchmark::State& state, VoidFraction method) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<std::array<double, 3>> position, zero(kParticles, {0, 0, 0}), velocity(kParticles), pressure(kParticles);
+  while (position.size() < kParticles) {
+    const double x = kHole * (2 * unit(random) - 1), y = kHole * (2 * unit(random) - 1);
+    if (std::hypot(x, y) < kHole && std::hypot(x, y + kOffset) > kPipe)
+      position.push_back({x, y, kLength * unit(random)});
+  }
+  const std::vector<double> volume(kParticles, M_PI / 6 * std::pow(kDiameter, 3)), drag(kParticles, 1e-8);
+  std::vector<link::Ticket> tickets(kParticles);
+  link::ParticleArrays particles;
+  particles.count = kParticles;
+  particles.position = reinterpret_cast<const double(*)[3]>(position.data());
+  particles.volume = volume.data();
+  particles.impulse = reinterpret_cast<const double(*)[3]>(zero.data());
+  particles.drag_coefficient = drag.data();
+  particles.ticket = tickets.data();
+  fluid::FluidSamples samples;
+  samples.velocity = reinterpret_cast<double(*)[3]>(velocity.data());
+  samples.pressure_gradient = reinterpret_cast<double(*)[3]>(pressure.data());
+  Foam::volVectorField u(Foam::IOobject("u", sharedMesh->time().timeName(), *sharedMesh), *sharedMesh,
+                         Foam::dimensionedVector("u", Foam::dimVelocity, Foam::vector(0, 0, 1)));
+  FlowFields flow;
+  flow.velocity = &u;
+  flow.pressureGradient = &u.primitiveField();
+  ExchangeSettings settings;
+  settings.method = method;
+  settings.length = 0.01;
+  particleExchange exchange(*sharedMesh, settings);
+  Foam::scalarField solid, dragField;
+  Foam::vectorField force;
+  for (auto _ : state) {
+    // A shift of a thirtieth of a millimetre: what particles do between two meetings.
+    for (auto& x : position)
+      x[2] = std::fmod(x[2] + 3e-5, kLength);
+    exchange.deposit(particles, 5e-3, solid, &force, &dragField);
+    exchange.sample(flow, particles, samples);
+  }
+  state.SetItemsProcessed(state.iterations() * kParticles);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  std::vector<std::string> words = {argv[0], "-case", ECCENTRA_TEST_MESH};
+  std::vector<char*> arguments;
+  for (std::string& word : words)
+    arguments.push_back(word.data());
+  int count = static_cast<int>(arguments.size());
+  char** values = arguments.data();
+  Foam::argList::noBanner();
+  auto* args = new Foam::argList(count, values);
+  auto* time = new Foam::Time(Foam::Time::controlDictName, *args);
+  sharedMesh =
+      new Foam::fvMesh(Foam::IOobject(Foam::fvMesh::defaultRegion, time->timeName(), *time, Foam::IOobject::MUST_READ));
+  benchmark::Initialize(&argc, argv);
+  benchmark::RegisterBenchmark("exchange/centre", exchangeOf, VoidFraction::centre)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("exchange/diffusion", exchangeOf, VoidFraction::diffusion)
+      ->Unit(benchmark::kMillisecond);
+  benchmark::RunSpecifiedBenchmarks();
+  MPI_Finalize();
+  return 0;
+}
