@@ -59,8 +59,12 @@ cellWalk::cellWalk(const Foam::fvMesh& mesh)
       shared_[r].push_back(entry.second);
   // Built here by all ranks together, as their construction may communicate.
   mesh_.cellCentres();
-  mesh_.faceAreas();
   mesh_.cells();
+  normals_.reserve(mesh.nFaces());
+  for (const vector& area : mesh.faceAreas())
+    normals_.push_back(area / Foam::mag(area));
+  for (const double volume : mesh.V().field())
+    cellSize_.push_back(std::cbrt(volume));
   if (mesh_.nCells() > 0)
     search_.cellTree();
 }
@@ -77,7 +81,6 @@ label cellWalk::nearestCell(const point& position, double& distanceSqr) const {
 
 WalkEnd cellWalk::walk(Walker& walker) const {
   const Foam::cellList& cells = mesh_.cells();
-  const Foam::vectorField& areas = mesh_.faceAreas();
   const Foam::vectorField& centres = mesh_.faceCentres();
   const Foam::labelList& owner = mesh_.faceOwner();
   const Foam::labelList& neighbour = mesh_.faceNeighbour();
@@ -86,13 +89,13 @@ WalkEnd cellWalk::walk(Walker& walker) const {
   label cell = walker.cell;
   WalkEnd end;
   for (int step = 0; step < kLongestWalk && !end.found; ++step) {
-    const double tolerance = kPlaneTolerance * std::cbrt(mesh_.V()[cell]);
+    const double tolerance = kPlaneTolerance * cellSize_[cell];
     double deepest = tolerance;
     double behindWall = 0;
     label through = -1;
     for (const label face : cells[cell]) {
       const double sign = owner[face] == cell ? 1 : -1;
-      const double distance = sign * ((position - centres[face]) & areas[face]) / Foam::mag(areas[face]);
+      const double distance = sign * ((position - centres[face]) & normals_[face]);
       const bool open =
           mesh_.isInternalFace(face) || patches[patchOfBoundaryFace_[face - mesh_.nInternalFaces()]].coupled();
       if (!open)

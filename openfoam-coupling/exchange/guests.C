@@ -97,6 +97,8 @@ void guests::invite(const link::ParticleArrays& particles, VoidFraction method, 
   searchAll(particles);
   std::vector<std::vector<Guest>> outgoing(boxes_.size());
   std::vector<DepositionPoint> points;
+  if (outgoing.size() == 1)
+    outgoing[0].reserve(particles.count);
   for (std::size_t row = 0; row < particles.count; ++row) {
     depositionPoints(method, particles.volume[row], particles.extent ? particles.extent[row] : nullptr, width, points);
     const bool centreOnly = points.size() == 1;
@@ -128,6 +130,7 @@ void guests::settle(std::vector<std::vector<Guest>>& outgoing) {
   here_.clear();
   for (;;) {
     const Arrivals<Guest> arrived = handOver(outgoing);
+    here_.reserve(here_.size() + arrived.rows.size());
     for (auto& list : outgoing)
       list.clear();
     int travelling = 0;
@@ -138,7 +141,7 @@ void guests::settle(std::vector<std::vector<Guest>>& outgoing) {
                                 ? walk_.walk(guest.at)
                                 : walk_.enter(guest.at, static_cast<int>(from), guest.enterPatch, guest.enterFace);
         if (end.found) {
-          guest.outside = end.outside > kTrustedDepth * std::cbrt(mesh_.V()[guest.at.cell]);
+          guest.outside = end.outside > kTrustedDepth * walk_.cellSize(guest.at.cell);
           here_.push_back(guest);
         } else {
           guest.enterPatch = end.nextPatch;
