@@ -291,7 +291,7 @@ TEST(WallClusters, RestartGoesOnToTheLastDigit) {
   {
     LiggghtsSession session;
     place_cubes(session);
-    straight = tumble(session, std::string(kTumbleWalls) + "run 3000\nwrite_restart clusters.restart\nrun 3000");
+    straight = tumble(session, std::string(kTumbleWalls) + "restart 3000 clusters.*.restart\nrun 6000");
   }
   EXPECT_GT(straight[0], -0.0115); // the belt has taken them along
   LiggghtsSession session;
@@ -302,7 +302,7 @@ TEST(WallClusters, RestartGoesOnToTheLastDigit) {
     communicate single vel yes
     processors * 1 1
     units si
-    read_restart clusters.restart
+    read_restart clusters.3000.restart
     neighbor 0.002 bin
     neigh_modify delay 0
     fix m1 all property/global youngsModulus peratomtype 5e6 5e6
