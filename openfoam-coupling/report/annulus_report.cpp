@@ -4,8 +4,8 @@
 #include "report/bed_picture.h"
 #include "report/charts.h"
 #include "report/html_page.h"
-#include "report/off_screen_display.h"
 #include "report/summary.h"
+#include "shape/vtk/virtual_display.h"
 
 #include <CLI/CLI.hpp>
 #include <vtkObject.h>
@@ -71,7 +71,7 @@ int run(int argc, char** argv) {
   write(folder / "summary.csv", to_csv(summaries));
   write(folder / "profile.csv", profile_csv(summaries));
   if (pictures) {
-    const OffScreenDisplay display;
+    const eccentra::shape::VirtualDisplay display;
     vtkObject::GlobalWarningDisplayOff();
     draw_charts(cases, summaries, folder / "charts.png");
     draw_beds(cases, folder / "beds.png");

@@ -76,7 +76,7 @@ Colours make_colours(double fastest_body, double fastest_fluid) {
 
 /// The drawn spheres with their speed as scalars.
 vtkSmartPointer<vtkPolyData> with_speed(vtkPolyData* points) {
-  vtkDataArray* velocity = points->GetPointData()->GetArray("v");
+  vtkDataArray* velocity = velocity_of(*points);
   const auto speed = vtkSmartPointer<vtkDoubleArray>::New();
   speed->SetName("speed");
   speed->SetNumberOfTuples(points->GetNumberOfPoints());
@@ -98,6 +98,13 @@ double nearly_largest(std::vector<double> values) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
+}
+
+/// The next larger number whose quarters are short: the scale has five labels.
+double round_up(double value) {
+  constexpr std::array<double, 6> steps = {0.1, 0.2, 0.4, 0.6, 0.8, 1.0};
+  const double decade = std::pow(10.0, std::ceil(std::log10(value)));
+  return decade * *std::find_if(steps.begin(), steps.end() - 1, [&](double s) { return s * decade >= value; });
 }
 
 /// `keep` decides by position which spheres are drawn.
@@ -265,24 +272,22 @@ void cross_section(vtkRenderer& renderer, const Scene& scene, const Colours& col
 void add_bar(vtkRenderer& renderer, vtkColorTransferFunction* colours, const char* title, double x) {
   const auto bar = vtkSmartPointer<vtkScalarBarActor>::New();
   bar->SetLookupTable(colours);
-  bar->SetTitle(title);
   bar->SetOrientationToHorizontal();
   bar->SetNumberOfLabels(5);
   bar->SetLabelFormat("%.2g");
   bar->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-  bar->SetPosition(x, 0.12);
+  bar->SetPosition(x, 0.1);
   bar->SetWidth(0.36);
-  bar->SetHeight(0.8);
+  bar->SetHeight(0.55);
   bar->SetUnconstrainedFontSize(true);
-  bar->SetVerticalTitleSeparation(12);
-  for (vtkTextProperty* text : {bar->GetTitleTextProperty(), bar->GetLabelTextProperty()}) {
-    text->SetColor(0, 0, 0);
-    text->SetFontSize(text_size);
-    text->SetBold(false);
-    text->SetItalic(false);
-    text->SetShadow(false);
-  }
+  vtkTextProperty& text = *bar->GetLabelTextProperty();
+  text.SetColor(0, 0, 0);
+  text.SetFontSize(text_size);
+  text.SetBold(false);
+  text.SetItalic(false);
+  text.SetShadow(false);
   renderer.AddViewProp(bar);
+  add_text(renderer, title, text_size, x + 0.18, 0.86);
 }
 
 } // namespace
@@ -306,7 +311,8 @@ void draw_beds(const std::vector<Case>& cases, const std::filesystem::path& file
     scenes.push_back(scene);
   }
   constexpr double least = 1e-6; // m/s: a scale of colours needs a length
-  const Colours colours = make_colours(std::max(nearly_largest(body_speeds), least), std::max(fastest_fluid, least));
+  const Colours colours =
+      make_colours(round_up(std::max(nearly_largest(body_speeds), least)), round_up(std::max(fastest_fluid, least)));
 
   // One scale of length for all: the widths that the holes take as they lie, and the height of the highest.
   constexpr double margin = 1.08;

@@ -9,7 +9,7 @@ namespace eccentra::report {
 
 /// One column per case, as it lies in the world (gravity points down): above, the half of the hole behind the plane
 /// through both axes taken away; below, the cross-section at half length. All in one scale of length and of colour.
-/// Writes a PNG. Needs a display (OffScreenDisplay).
+/// Writes a PNG. Needs a display (shape::VirtualDisplay).
 void draw_beds(const std::vector<Case>& cases, const std::filesystem::path& file);
 
 } // namespace eccentra::report

@@ -165,11 +165,14 @@ vtkSmartPointer<vtkPolyData> read_points(const fs::path& file) {
 Snapshot read_snapshot(const ParticleFile& file) {
   const auto points = read_points(file.path);
   vtkPointData& data = *points->GetPointData();
-  vtkDataArray* velocity = data.GetArray("v");
+  vtkDataArray* velocity = velocity_of(*points);
   vtkDataArray* radius = data.GetArray("radius");
-  vtkDataArray* volume = data.GetArray("volume");
-  if (points->GetNumberOfPoints() > 0 && (velocity == nullptr || (radius == nullptr && volume == nullptr)))
-    throw std::runtime_error(file.path.string() + ": the points lack 'v' or 'radius': dump vx vy vz and radius");
+  vtkDataArray* mass = data.GetArray("mass");
+  vtkDataArray* density = data.GetArray("density");
+  const bool by_mass = mass != nullptr && density != nullptr;
+  if (points->GetNumberOfPoints() > 0 && (velocity == nullptr || (radius == nullptr && !by_mass)))
+    throw std::runtime_error(file.path.string() +
+                             ": the points lack a velocity or a radius: dump radius mass density vx vy vz");
   Snapshot snapshot;
   for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i) {
     Vector position{};
@@ -179,9 +182,16 @@ Snapshot read_snapshot(const ParticleFile& file) {
     constexpr double sphere = 4.18879020478639098; // 4 pi / 3
     snapshot.position.push_back(position);
     snapshot.velocity.push_back(speed);
-    snapshot.volume.push_back(volume != nullptr ? volume->GetTuple1(i) : sphere * std::pow(radius->GetTuple1(i), 3));
+    // The radius of a cluster is that of its bounding sphere.
+    snapshot.volume.push_back(by_mass ? mass->GetTuple1(i) / density->GetTuple1(i)
+                                      : sphere * std::pow(radius->GetTuple1(i), 3));
   }
   return snapshot;
+}
+
+vtkDataArray* velocity_of(vtkPolyData& points) {
+  vtkDataArray* velocity = points.GetPointData()->GetArray("velocity");
+  return velocity != nullptr ? velocity : points.GetPointData()->GetArray("v");
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> read_flow(const fs::path& folder) {

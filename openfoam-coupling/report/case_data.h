@@ -5,6 +5,7 @@
 
 #include "report/section_measures.h"
 
+#include <vtkDataArray.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
@@ -40,7 +41,7 @@ struct Case {
   Section section;
   double inclination = 0;            ///< degrees from the vertical
   Table run;                         ///< postProcessing/eccentra/coupling.csv
-  std::vector<ParticleFile> bodies;  ///< one point per body: radius, v, and volume where it is not a sphere
+  std::vector<ParticleFile> bodies;  ///< one point per body: velocity, and mass and density, or the radius of a sphere
   std::vector<ParticleFile> spheres; ///< what to draw: sub-spheres where bodies are clusters, else `bodies`
 };
 
@@ -52,6 +53,9 @@ Snapshot read_snapshot(const ParticleFile& file);
 
 /// Points of a .vtk or .vtp file; of several blocks, all points together.
 vtkSmartPointer<vtkPolyData> read_points(const std::filesystem::path& file);
+
+/// The velocities as dump cluster/vtk or dump custom/vtk name them, or null.
+vtkDataArray* velocity_of(vtkPolyData& points);
 
 /// The mesh with the last U written (point data), or null if the run wrote no time; whole or in parts of processors.
 vtkSmartPointer<vtkUnstructuredGrid> read_flow(const std::filesystem::path& folder);

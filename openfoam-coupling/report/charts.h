@@ -7,7 +7,7 @@
 
 namespace eccentra::report {
 
-/// Writes a PNG. `cases` and `summaries` belong together row by row. Needs a display (OffScreenDisplay).
+/// Writes a PNG. `cases` and `summaries` belong together row by row. Needs a display (shape::VirtualDisplay).
 void draw_charts(const std::vector<Case>& cases, const std::vector<Summary>& summaries,
                  const std::filesystem::path& file);
 

@@ -45,7 +45,10 @@ std::string number(double value) {
 
 std::string cell(const Quantity& q) {
   const std::string value = number(q.mean.value * q.scale);
-  return q.mean.error > 0 ? value + " +-" + fmt::format("{:.2g}", q.mean.error * q.scale) : value;
+  constexpr double round_off = 1e-6; // what is the same in every row has no error
+  return q.mean.error > round_off * std::abs(q.mean.value)
+             ? value + " +-" + fmt::format("{:.2g}", q.mean.error * q.scale)
+             : value;
 }
 
 } // namespace
@@ -141,7 +144,7 @@ Summary summarise(const Case& data, double share, std::size_t layers) {
 
 std::string to_text(const std::vector<Summary>& summaries) {
   constexpr std::size_t first = 42;
-  std::size_t wide = 16;
+  std::size_t wide = 20;
   for (const Summary& s : summaries)
     wide = std::max(wide, s.name.size() + 2);
   std::string text = fmt::format("{:<{}}", "mean +- standard error", first);

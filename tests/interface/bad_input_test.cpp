@@ -7,6 +7,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <regex>
 #include <sstream>
@@ -22,6 +23,7 @@ constexpr double time_allowed = 20; // seconds, with a machine that is busy; an 
 struct Base {
   std::vector<std::string> words;           ///< the command; the first word is looked up in our bin folder
   std::map<std::string, std::string> files; ///< input files by name
+  std::string copy;                         ///< folder of the source tree whose files come first
   double timeout = time_allowed;
 };
 
@@ -43,6 +45,15 @@ Base parse_base(const YAML::Node& node) {
   base.words = node["run"].as<std::vector<std::string>>();
   for (const auto& file : node["files"])
     base.files[file.first.as<std::string>()] = file.second.as<std::string>();
+  if (node["copy"]) {
+    base.copy = node["copy"].as<std::string>();
+    const fs::path folder = fs::path(required_environment("ECCENTRA_SOURCE")) / base.copy;
+    for (const auto& item : fs::recursive_directory_iterator(folder)) {
+      std::ifstream stream(item.path());
+      if (item.is_regular_file())
+        base.files.emplace(fs::relative(item.path(), folder), std::string{std::istreambuf_iterator<char>(stream), {}});
+    }
+  }
   if (node["timeout"])
     base.timeout = node["timeout"].as<double>();
   return base;
@@ -78,16 +89,18 @@ ProgramResult execute(const Base& base, const fs::path& folder) {
     if (word.find('/') == std::string::npos && fs::is_regular_file(ours))
       word = ours;
   }
-  return run_program(words, {folder, {}, base.timeout});
+  const std::string path = required_environment("ECCENTRA_BIN") + ":" + required_environment("PATH");
+  return run_program(words, {folder, {"PATH=" + path}, base.timeout});
 }
 
-/// The sentences in which a program says that it stops: "ERROR: ..." (LIGGGHTS), "tool: error: ..." (our tools), and
-/// the text under "--> FOAM FATAL" (OpenFOAM), up to its blank line.
+/// The sentences in which a program says that it stops: "ERROR: ..." (LIGGGHTS), "tool: error: ..." and the like
+/// (ours), and the text under "--> FOAM FATAL" (OpenFOAM), up to its blank line.
 std::vector<std::string> sentences(const std::string& output) {
   std::vector<std::string> found;
   std::istringstream lines(output);
   std::string line;
-  const std::regex said(R"(^(\[\d+\] )?(ERROR( on proc \d+)?: |[A-Za-z-]+: error: ))");
+  const std::regex said(
+      R"(^(\[\d+\] )?((ERROR( on proc \d+)?|[A-Za-z-]+: error): |clusterShape: |annulusFoam: the DEM script ended))");
   while (std::getline(lines, line)) {
     if (std::regex_search(line, said)) {
       found.push_back(line);
