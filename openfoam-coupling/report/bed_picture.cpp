@@ -102,7 +102,7 @@ double nearly_largest(std::vector<double> values) {
 
 /// The next larger number whose quarters are short: the scale has five labels.
 double round_up(double value) {
-  constexpr std::array<double, 6> steps = {0.1, 0.2, 0.4, 0.6, 0.8, 1.0};
+  constexpr std::array<double, 10> steps = {0.1, 0.12, 0.16, 0.2, 0.24, 0.32, 0.4, 0.6, 0.8, 1.0};
   const double decade = std::pow(10.0, std::ceil(std::log10(value)));
   return decade * *std::find_if(steps.begin(), steps.end() - 1, [&](double s) { return s * decade >= value; });
 }

@@ -101,8 +101,10 @@ std::vector<std::string> sentences(const std::string& output) {
   std::string line;
   const std::regex said(
       R"(^(\[\d+\] )?((ERROR( on proc \d+)?|[A-Za-z-]+: error): |clusterShape: |annulusFoam: the DEM script ended))");
-  while (std::getline(lines, line)) {
-    if (std::regex_search(line, said)) {
+  for (std::string before; std::getline(lines, line); before = line) {
+    if (line.rfind("Run with --help", 0) == 0) {
+      found.push_back(before); // as CLI11 refuses words
+    } else if (std::regex_search(line, said)) {
       found.push_back(line);
     } else if (line.find("--> FOAM FATAL") != std::string::npos) {
       std::string text;
