@@ -141,6 +141,9 @@ void coupledRun::run() {
   const word link(properties_.getOrDefault<word>("link", "solver"));
   if (link != "solver")
     throw inputError(properties_, "link", link, "use solver");
+  const label every = properties_.getOrDefault<label>("report", kReportEvery);
+  if (every < 1)
+    throw inputError(properties_, "report", every, "give a whole number of meetings, at least 1");
   const fileName script(properties_.get<fileName>("demScript"));
   // The script's own paths are relative to the case.
   if (!chDir(time_.globalPath()))
