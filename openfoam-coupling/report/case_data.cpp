@@ -133,7 +133,7 @@ Case read_case(const fs::path& folder) {
   result.run = read_csv(folder / "postProcessing" / "eccentra" / "coupling.csv");
   // LIGGGHTS writes a second file with the bounding box beside each: those do not count.
   result.bodies = find_files(folder, std::regex(R"((?:particles|bodies)[_.-]?(\d+)\.vt[kp])"));
-  result.spheres = find_files(folder, std::regex(R"((?:spheres|clusters)[_.-]?(\d+)\.vt[kp])"));
+  result.spheres = find_files(folder, std::regex(R"((?:grains|spheres|clusters)[_.-]?(\d+)\.vt[kp])"));
   if (result.spheres.empty())
     result.spheres = result.bodies;
   if (result.bodies.empty())
