@@ -14,6 +14,7 @@
 #include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
+#include "update.h"
 
 #include <cstring>
 
@@ -224,7 +225,8 @@ void FixBodies::unpack_restart(int i, int nth) {
   const double* record = extra + m + 1;
   std::copy(record, record + columns, data_[i]);
   rotation_matrix(data_[i], rotation(i));
-  std::copy(record + columns, record + columns + 6, resumed_[i].begin());
+  if (resuming_)
+    std::copy(record + columns, record + columns + 6, resumed_[i].begin());
 }
 
 int FixBodies::size_restart(int) {
@@ -238,6 +240,8 @@ void FixBodies::write_restart(FILE* fp) {
   if (comm->me != 0)
     return;
   ByteWriter bytes;
+  // Within a run, the run goes on with its forces; between runs, the next one computes them anew, restarted or not.
+  bytes.put(update->whichflag != 0);
   bytes.put(shapes_.size());
   for (int id = 0; id < shapes_.size(); ++id) {
     const shape::ClusterShape& shape = shapes_[id];
@@ -259,9 +263,10 @@ void FixBodies::write_restart(FILE* fp) {
 }
 
 void FixBodies::restart(char* buf) {
-  resuming_ = true;
-  resumed_.assign(atom->nmax, {});
   ByteReader bytes(buf);
+  resuming_ = bytes.get<bool>();
+  if (resuming_)
+    resumed_.assign(atom->nmax, {});
   const int count = bytes.get<int>();
   for (int id = 0; id < count; ++id) {
     std::string name(bytes.get<int>(), ' ');

@@ -232,6 +232,36 @@ void FixWallGranCluster::renew_history(int i, std::size_t first) {
     touches_[m].history = &entries[m - first];
 }
 
+// On a plane, or with one contact, all weights of SharedStiffness and ImpactMass are 1: the same formulas, much
+// shorter.
+template <class Stiffness>
+bool FixWallGranCluster::share_damping_of_one_normal(int i, std::size_t first, const Stiffness& stiffness) {
+  const Eigen::Vector3d n = touches_[first].normal;
+  for (std::size_t m = first + 1; m < touches_.size(); ++m)
+    if (touches_[m].normal != n)
+      return false;
+  double sum = 0, force = 0, work = 0;
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();
+  for (std::size_t m = first; m < touches_.size(); ++m) {
+    const WallTouch& touch = touches_[m];
+    const double s = stiffness(touch);
+    sum += s;
+    force += s * touch.overlap;
+    work += s * touch.overlap * touch.overlap;
+    arm += s * touch.lever;
+  }
+  double lever = 1;
+  if (!is_plain_sphere(i)) {
+    const Eigen::Vector3d turn = row_major(bodies_->rotation(i)).transpose() * (arm / sum).cross(n);
+    const Eigen::Vector3d& inertia = bodies_->shapes()[bodies_->shape_id(i)].inertia_per_mass();
+    lever = 1 / std::sqrt(1 + turn.cwiseAbs2().dot(inertia.cwiseInverse()));
+  }
+  const double common = touches_.size() > first + 1 ? force / sum / std::sqrt(work) : 0;
+  for (std::size_t m = first; m < touches_.size(); ++m)
+    touches_[m].share = (common > 0 ? std::min(1., common * std::sqrt(stiffness(touches_[m]))) : 1) * lever;
+  return true;
+}
+
 void FixWallGranCluster::share_damping(int i, std::size_t first) {
   const bool plain = is_plain_sphere(i);
   if (plain && touches_.size() == first + 1)
@@ -240,6 +270,8 @@ void FixWallGranCluster::share_damping(int i, std::size_t first) {
   const auto stiffness = [&](const WallTouch& touch) {
     return youngs_[atom->type[i]][touch.wall_type] * std::sqrt(touch.radius * touch.overlap);
   };
+  if (share_damping_of_one_normal(i, first, stiffness))
+    return;
   SharedStiffness all;
   ImpactMass impact;
   for (std::size_t m = first; m < touches_.size(); ++m) {
@@ -254,12 +286,10 @@ void FixWallGranCluster::share_damping(int i, std::size_t first) {
                       bodies_->shapes()[bodies_->shape_id(i)].inertia_per_mass().cwiseInverse().asDiagonal() *
                       rotation.transpose();
   }
-  double lever = 1;
   for (std::size_t m = first; m < touches_.size(); ++m) {
     const Eigen::Vector3d& n = touches_[m].normal;
-    if (m == first || n != touches_[m - 1].normal) // a plane has one normal for all
-      lever = std::sqrt(impact.ratio(n, inverse_inertia));
-    touches_[m].share = all.damping_share(stiffness(touches_[m]), n.x(), n.y(), n.z()) * lever;
+    touches_[m].share =
+        all.damping_share(stiffness(touches_[m]), n.x(), n.y(), n.z()) * std::sqrt(impact.ratio(n, inverse_inertia));
   }
 }
 

@@ -87,6 +87,7 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   void renew_history(int i, std::size_t first);
   /// Scales the damping of the atom's contacts, touches_[first] and after, to what all of them are together.
   void share_damping(int i, std::size_t first);
+  template <class Stiffness> bool share_damping_of_one_normal(int i, std::size_t first, const Stiffness& stiffness);
   /// Forces of all collected contacts, a block at a time.
   void add_forces();
   /// Contacts, forces and torques of near_spheres_, all in one go.
