@@ -66,11 +66,11 @@ void FixFluidCouple::read(const std::vector<std::string>& words) {
       return words[next++];
     };
     if (keyword == "link") {
-      link_ = value("'solver' or 'socket ADDRESS'");
+      link_ = value("'solver'");
       if (link_ == "socket")
-        address_ = value("'socket ADDRESS', such as ipc:///tmp/eccentra.sock");
+        address_ = value("an address");
       else if (link_ != "solver")
-        refuse("link '" + link_ + "' is unknown: use solver, or socket ADDRESS");
+        refuse("link '" + link_ + "' is unknown: use solver");
     } else if (keyword == "every") {
       const std::string& text = value("a number of DEM steps");
       char* end = nullptr;
@@ -79,11 +79,11 @@ void FixFluidCouple::read(const std::vector<std::string>& words) {
         refuse("every has '" + text + "': give a whole number of DEM steps from 1 on");
       interval_ = static_cast<int>(number);
     } else {
-      refuse("unknown word '" + keyword + "': known are link solver|socket ADDRESS and every N");
+      refuse("unknown word '" + keyword + "': known are link solver and every N");
     }
   }
   if (link_.empty())
-    refuse("the word 'link' is missing: add link solver (the fluid solver hosts this script) or link socket ADDRESS");
+    refuse("the word 'link' is missing: add link solver (the fluid solver hosts this script)");
   if (interval_ == 0)
     refuse("the word 'every' is missing: add every N, the DEM steps from one meeting with the fluid to the next");
 }
@@ -109,7 +109,7 @@ void FixFluidCouple::init() {
     peer_ = link::hosting_solver();
     if (!peer_)
       refuse("link solver needs a fluid solver that hosts this script: start annulusFoam in the case folder instead of "
-             "this program, or use link socket ADDRESS");
+             "this program");
   } else {
     refuse("link socket is not available in this version: use link solver and start annulusFoam in the case folder");
   }
