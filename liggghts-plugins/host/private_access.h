@@ -7,9 +7,7 @@
 namespace eccentra::host {
 
 /// Holds the pointer to member that PrivateMember publishes under Tag.
-template <class Tag> struct Published {
-  static typename Tag::type pointer;
-};
+template <class Tag> struct Published { static typename Tag::type pointer; };
 template <class Tag> typename Tag::type Published<Tag>::pointer;
 
 /// Instantiate explicitly as `template struct PrivateMember<Tag, &Class::member>;`.

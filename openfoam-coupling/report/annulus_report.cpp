@@ -31,7 +31,8 @@ int run(int argc, char** argv) {
   CLI::App app(
       "Concentration, bed, fluxes, pressure gradient and cost of coupled runs: a table, CSV, charts and pictures.\n"
       "Reads CASE/system/annulusMeshDict, CASE/postProcessing/eccentra/coupling.csv, the particles that the run\n"
-      "dumped (CASE/post/particles*.vtk, grains*.vtp) and the last flow written. Several cases: side by side.");
+      "dumped (beside coupling.csv: particles_*.vtk, grains_*.vtp) and the last flow written. Several cases: side by "
+      "side.");
   app.name("annulusReport");
   std::vector<std::string> folders;
   std::string out;
