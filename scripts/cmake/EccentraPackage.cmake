@@ -6,6 +6,7 @@ install(FILES "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/LICENSE" 
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/cases" DESTINATION "${CMAKE_INSTALL_DATADIR}/eccentra" USE_SOURCE_PERMISSIONS
   PATTERN "results*" EXCLUDE PATTERN "run[0-9]*" EXCLUDE)
 
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON) # a package holds no tests: cpack need not build them
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME eccentra)
 set(CPACK_PACKAGE_CONTACT "Eccentra contributors <eccentra@localhost>")
