@@ -18,8 +18,8 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/lib")
 # The hosts' versions are part of what we are: both libraries are linked by their C++ symbols.
-execute_process(COMMAND dpkg-query -W -f "\\${Version}" liggghts OUTPUT_VARIABLE _liggghts ERROR_QUIET)
-execute_process(COMMAND dpkg-query -W -f "\\${Version}" libopenfoam OUTPUT_VARIABLE _openfoam ERROR_QUIET)
+execute_process(COMMAND dpkg-query -W -f "\${Version}" liggghts OUTPUT_VARIABLE _liggghts ERROR_QUIET)
+execute_process(COMMAND dpkg-query -W -f "\${Version}" libopenfoam OUTPUT_VARIABLE _openfoam ERROR_QUIET)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
   "liggghts (= ${_liggghts}), openfoam (= ${_openfoam}), libopenfoam (= ${_openfoam}), openmpi-bin, xvfb")
 include(CPack)
