@@ -1,0 +1,105 @@
+# SPDX-FileCopyrightText: Eccentra contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads the case files (tests/stability/cases/*.toml) and unfolds their variations into single cases."""
+import itertools
+import math
+import pathlib
+import re
+import tomllib
+from dataclasses import dataclass, field
+
+from . import references, scenes
+
+KEYS = {"name", "what", "scene", "vary", "set", "quick", "full", "check", "fails", "runs", "seconds", "files"}
+
+
+class CaseFileError(Exception):
+    """A case file that cannot be used; the text names file and key."""
+
+
+@dataclass
+class Case:
+    group: str
+    name: str
+    what: str
+    scene: str
+    values: dict
+    checks: list
+    runs: list
+    quick: bool
+    seconds: float  # a guess, for the time left
+    files: dict
+    failing: bool = False
+    why: str = ""
+    says: str = ""
+
+    @property
+    def id(self):
+        return f"{self.group}/{self.name}" + ("/fails" if self.failing else "")
+
+
+@dataclass
+class Group:
+    name: str
+    title: str
+    theory: str
+    cases: list = field(default_factory=list)
+
+
+def names_of(values):
+    """What expressions may use."""
+    known = {"__builtins__": {}}
+    known |= {name: getattr(module, name) for module in (math, references, scenes) for name in dir(module)
+             if not name.startswith("_")}
+    known.update(abs=abs, min=min, max=max, sum=sum, len=len, range=range, zip=zip, sorted=sorted, str=str, repr=repr, int=int,
+                 float=float, any=any, all=all, round=round, enumerate=enumerate)
+    known.update(values)
+    return known
+
+
+def fill(text, values):
+    """Replaces {expression} (not ${...}) by its value. Numbers keep all their digits."""
+    def value(match):
+        result = eval(match.group(1), names_of(values))  # our own case files
+        return repr(result) if isinstance(result, float) else str(result)
+    return re.sub(r"(?<!\$)\{([^{}]+)\}", value, text)
+
+
+def _unfold(vary):
+    keys = list(vary)
+    for combination in itertools.product(*vary.values()):
+        yield dict(zip(keys, combination))
+
+
+def read(path, full):
+    try:
+        data = tomllib.loads(path.read_text())
+    except tomllib.TOMLDecodeError as error:
+        raise CaseFileError(f"{path}: {error}")
+    group = Group(path.stem.split("-", 1)[-1], data.get("title", path.stem), data.get("theory", "").strip())
+    for entry in data.get("case", []):
+        unknown = set(entry) - KEYS
+        if unknown or not {"name", "what", "scene", "check", "fails"} <= set(entry):
+            raise CaseFileError(f"{path}: case '{entry.get('name')}' has unknown keys {sorted(unknown)} or lacks one of "
+                                "name, what, scene, check, fails")
+        for variation in _unfold(entry.get("vary", {})):
+            values = {**data.get("set", {}), **entry.get("set", {}), **(entry.get("full", {}) if full else {}),
+                      **variation}
+            quick = bool(eval(str(entry.get("quick", "False")), names_of(values)))
+
+            def case(extra, **more):
+                merged = {**values, **extra}
+                return Case(group.name, fill(entry["name"], values).replace(" ", ""), fill(entry["what"], values),
+                            entry["scene"], merged, entry["check"], entry.get("runs", [{}]), quick,
+                            entry.get("seconds", 2.0), entry.get("files", {}), **more)
+
+            group.cases.append(case({}))
+            for failing in entry["fails"]:
+                if eval(str(failing.get("when", "True")), names_of(values)):
+                    group.cases.append(case(failing.get("set", {}), failing=True, why=failing["why"],
+                                            says=failing.get("says", "")))
+    return group
+
+
+def read_all(folder, full):
+    return [read(path, full) for path in sorted(pathlib.Path(folder).glob("*.toml"))]

@@ -1,0 +1,78 @@
+# SPDX-FileCopyrightText: Eccentra contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a run left behind: its log, thermo tables and dumps, in the terms that criteria use."""
+import glob
+import re
+
+
+class Measured:
+    """One finished run. Thermo tables are numbered as the `run` commands of the script; -1 is the last."""
+
+    def __init__(self, folder, output, status, peak_memory):
+        self.folder, self.output, self.status, self.memory = folder, output, status, peak_memory
+        self.tables = list(self._tables(output))
+
+    @staticmethod
+    def _tables(output):
+        header = None
+        for line in output.splitlines():
+            words = line.split()
+            if words[:1] == ["Step"]:
+                header, rows = words, []
+            elif header and words and re.fullmatch(r"-?\d+", words[0]) and len(words) == len(header):
+                try:
+                    rows.append([float(word) for word in words])
+                except ValueError:
+                    continue
+            elif header and line.startswith("Loop time"):
+                yield {name: [row[i] for row in rows] for i, name in enumerate(header)}
+                header = None
+        if header:
+            yield {name: [row[i] for row in rows] for i, name in enumerate(header)}
+
+    def column(self, name, table=-1):
+        """A column by the word of thermo_style that asked for it."""
+        heading = {"ke": "KinEng", "atoms": "Atoms", "step": "Step"}.get(name, re.sub("^[fvc]_", "", name))
+        return self.tables[table][heading]
+
+    def first(self, name, table=-1):
+        return self.column(name, table)[0]
+
+    def last(self, name, table=-1):
+        return self.column(name, table)[-1]
+
+    def largest(self, name, table=-1):
+        values = [abs(value) for value in self.column(name, table)]
+        return float("nan") if any(value != value for value in values) else max(values)
+
+    def early(self, name, table=-1):
+        """Mean of the first quarter."""
+        values = self.column(name, table)
+        part = values[: max(1, len(values) // 4)]
+        return sum(part) / len(part)
+
+    def late(self, name, table=-1):
+        """Mean of the last quarter."""
+        values = self.column(name, table)
+        part = values[-max(1, len(values) // 4):]
+        return sum(part) / len(part)
+
+    def says(self, pattern):
+        return 1 if re.search(pattern, self.output) else 0
+
+    def frames(self, name="dump"):
+        """Frames of a custom dump `name` or `name.*`: lists of dictionaries column -> value, sorted by id."""
+        found = []
+        for path in sorted(glob.glob(f"{self.folder}/{name}*")):
+            with open(path) as stream:
+                lines = iter(stream.read().splitlines())
+            for line in lines:
+                if line.startswith("ITEM: TIMESTEP"):
+                    step = int(next(lines))
+                elif line.startswith("ITEM: NUMBER OF ATOMS"):
+                    count = int(next(lines))
+                elif line.startswith("ITEM: ATOMS"):
+                    names = line.split()[2:]
+                    atoms = [dict(zip(names, map(float, next(lines).split()))) for _ in range(count)]
+                    found.append((step, sorted(atoms, key=lambda atom: atom["id"])))
+        return [atoms for _, atoms in sorted(found, key=lambda frame: frame[0])]

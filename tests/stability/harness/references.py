@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: Eccentra contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Closed forms that the criteria of the hard cases rest on, written independently of the plug-in. SI units."""
+import math
+
+GRAVITY = 9.81
+ANSLEY_SMITH = 7 * math.pi / 24  # effective stress on a sphere in a yield-stress fluid
+
+
+def chien_resistance(speed, diameter, density, tau0, consistency, index):
+    """Drag [N] of Chien (1994), C_D = 30/Re + 67.289 exp(-5.03), with the effective viscosity of a Herschel-Bulkley
+    fluid, Re = rho U^2 / (K (U/d)^n + 7 pi/24 tau0). Finite at speed 0: the yield force."""
+    stress = ANSLEY_SMITH * tau0 + (consistency * (speed / diameter) ** index if speed > 0 else 0.0)
+    area = math.pi / 8 * diameter**2
+    return area * (30 * stress + density * 67.289 * math.exp(-5.03) * speed**2)
+
+
+def terminal_speed(diameter, solid, density, tau0, consistency, index):
+    """Speed at which chien_resistance balances the submerged weight (or lift); 0 where the yield stress holds."""
+    weight = math.pi / 6 * diameter**3 * abs(solid - density) * GRAVITY
+    if chien_resistance(0, diameter, density, tau0, consistency, index) >= weight:
+        return 0.0
+    low, high = 0.0, 1e3
+    for _ in range(200):
+        middle = (low + high) / 2
+        if chien_resistance(middle, diameter, density, tau0, consistency, index) < weight:
+            low = middle
+        else:
+            high = middle
+    return (low + high) / 2
+
+
+def holding_yield_stress(diameter, solid, density):
+    """Smallest tau0 [Pa] that holds a sphere in a fluid at rest (chien)."""
+    weight = math.pi / 6 * diameter**3 * abs(solid - density) * GRAVITY
+    return weight / (math.pi / 8 * diameter**2 * 30 * ANSLEY_SMITH)
+
+
+def hertz_energy(youngs, poisson, reduced_radius, overlap):
+    """Energy stored in a Hertz contact of two like materials, 8/15 E* sqrt(R*) overlap^2.5 [J]."""
+    effective = youngs / (2 * (1 - poisson**2))
+    return 8 / 15 * effective * math.sqrt(reduced_radius) * overlap**2.5
+
+
+def sphere_mass(diameter, density):
+    return math.pi / 6 * diameter**3 * density
+
+
+def settled(particle, viscosity, elapsed):
+    """Whether a dumped particle has had 12 viscous relaxation times since it was let go. The relaxation time is bounded
+    from above by m / (viscous part of the drag / speed)."""
+    diameter = 2 * particle["radius"]
+    time = sphere_mass(diameter, particle["density"]) / (math.pi / 8 * diameter * 30 * viscosity)
+    return elapsed > 12 * time
+
+
+def energy(run, mass, table=-1):
+    """Kinetic plus potential energy of one body over the lines of a table that has f_move[1], f_move[2] and v_z [J]."""
+    columns = (run.column(name, table) for name in ("f_move[1]", "f_move[2]", "v_z"))
+    return [translation + rotation + mass * GRAVITY * z for translation, rotation, z in zip(*columns)]
