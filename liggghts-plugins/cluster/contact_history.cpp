@@ -142,7 +142,7 @@ int FixContactHistory::maxsize_restart() {
 }
 
 double FixContactHistory::memory_usage() {
-  double bytes = static_cast<double>(touches_.capacity() * sizeof(touches_[0]));
+  double bytes = static_cast<double>(touches_.capacity() * sizeof(decltype(touches_)::value_type));
   for (const auto& list : touches_)
     bytes += static_cast<double>(list.capacity() * sizeof(Touch));
   return bytes;
