@@ -10,7 +10,8 @@ from dataclasses import dataclass, field
 
 from . import references, scenes
 
-KEYS = {"name", "what", "scene", "vary", "set", "quick", "full", "check", "fails", "runs", "seconds", "files"}
+KEYS = {"name", "what", "scene", "vary", "set", "quick", "full", "check", "fails", "runs", "seconds", "files",
+        "commands"}
 
 
 class CaseFileError(Exception):
@@ -28,7 +29,8 @@ class Case:
     runs: list
     quick: bool
     seconds: float  # a guess, for the time left
-    files: dict
+    files: dict  # further files of the run: name, text
+    commands: list  # instead of eccentra-dem on the scene: lines to execute in turn
     failing: bool = False
     why: str = ""
     says: str = ""
@@ -57,12 +59,16 @@ def names_of(values):
     return known
 
 
-def fill(text, values):
-    """Replaces {expression} (not ${...}) by its value. Numbers keep all their digits."""
+IN_SCRIPT = r"(?<!\$)\{([^{}]+)\}"  # {expression}, not ${variable of LIGGGHTS}
+IN_FILE = r"@\{([^{}]+)\}"  # @{expression}: dictionaries are full of braces
+
+
+def fill(text, values, pattern=IN_SCRIPT):
+    """Replaces expressions by their values. Numbers keep all their digits."""
     def value(match):
         result = eval(match.group(1), names_of(values))  # our own case files
         return repr(result) if isinstance(result, float) else str(result)
-    return re.sub(r"(?<!\$)\{([^{}]+)\}", value, text)
+    return re.sub(pattern, value, text)
 
 
 def _unfold(vary):
@@ -79,9 +85,9 @@ def read(path, full):
     group = Group(path.stem.split("-", 1)[-1], data.get("title", path.stem), data.get("theory", "").strip())
     for entry in data.get("case", []):
         unknown = set(entry) - KEYS
-        if unknown or not {"name", "what", "scene", "check", "fails"} <= set(entry):
+        if unknown or not {"name", "what", "check", "fails"} <= set(entry):
             raise CaseFileError(f"{path}: case '{entry.get('name')}' has unknown keys {sorted(unknown)} or lacks one of "
-                                "name, what, scene, check, fails")
+                                "name, what, check, fails")
         for variation in _unfold(entry.get("vary", {})):
             values = {**data.get("set", {}), **entry.get("set", {}), **(entry.get("full", {}) if full else {}),
                       **variation}
@@ -90,8 +96,9 @@ def read(path, full):
             def case(extra, **more):
                 merged = {**values, **extra}
                 return Case(group.name, fill(entry["name"], values).replace(" ", ""), fill(entry["what"], values),
-                            entry["scene"], merged, entry["check"], entry.get("runs", [{}]), quick,
-                            entry.get("seconds", 2.0), entry.get("files", {}), **more)
+                            entry.get("scene", ""), merged, entry["check"], entry.get("runs", [{}]), quick,
+                            entry.get("seconds", 2.0), {**data.get("files", {}), **entry.get("files", {})},
+                            entry.get("commands", []), **more)
 
             group.cases.append(case({}))
             for failing in entry["fails"]:

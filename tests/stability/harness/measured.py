@@ -57,8 +57,25 @@ class Measured:
         part = values[-max(1, len(values) // 4):]
         return sum(part) / len(part)
 
+    def memory_growth(self):
+        """Bytes by which the resident memory grew in the second half of the run."""
+        half = [size for time, size in self.memory if time > self.memory[-1][0] / 2]
+        return max(half) - half[0]
+
     def says(self, pattern):
         return 1 if re.search(pattern, self.output) else 0
+
+    def number(self, pattern, which=-1):
+        """The number that the first group of `pattern` finds in the output; by default the last one."""
+        return float(re.findall(pattern, self.output)[which])
+
+    def field_mean(self, name, component):
+        """Mean over the cells of a component of an ASCII vector field of OpenFOAM at the last time that was written."""
+        times = [folder for folder in glob.glob(f"{self.folder}/[0-9]*") if re.fullmatch(r"[-+0-9.e]+", folder.split("/")[-1])]
+        with open(max(times, key=lambda folder: float(folder.split("/")[-1])) + "/" + name) as stream:
+            text = stream.read()
+        cells = re.findall(r"^\(([^()]+)\)$", text[: text.index("boundaryField")], re.M)
+        return sum(float(cell.split()[component]) for cell in cells) / len(cells)
 
     def frames(self, name="dump"):
         """Frames of a custom dump `name` or `name.*`: lists of dictionaries column -> value, sorted by id."""

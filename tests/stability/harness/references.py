@@ -58,3 +58,39 @@ def energy(run, mass, table=-1):
     """Kinetic plus potential energy of one body over the lines of a table that has f_move[1], f_move[2] and v_z [J]."""
     columns = (run.column(name, table) for name in ("f_move[1]", "f_move[2]", "v_z"))
     return [translation + rotation + mass * GRAVITY * z for translation, rotation, z in zip(*columns)]
+
+
+def annulus_gradient(velocity, hole, pipe, eccentricity, viscosity):
+    """Pressure gradient [Pa/m] of a Newtonian fluid at a mean velocity in an eccentric annulus (Piercy, Hooper & Winny 1933)."""
+    offset = max(eccentricity, 1e-4) * (hole - pipe)
+    f = (hole**2 - pipe**2 + offset**2) / (2 * offset)
+    m = math.sqrt(f**2 - hole**2)
+    a = 0.5 * math.log((f + m) / (f - m))
+    b = 0.5 * math.log((f - offset + m) / (f - offset - m))
+    terms = 0.0
+    for n in range(1, 400):
+        if n * (b + a) > 600:
+            break
+        terms += n * math.exp(-n * (b + a)) / math.sinh(n * (b - a))
+    conductance = math.pi / (8 * viscosity) * (hole**4 - pipe**4 - 4 * offset**2 * m**2 / (b - a) - 8 * offset**2 * m**2 * terms)
+    return velocity * math.pi * (hole**2 - pipe**2) / conductance
+
+
+def channel_velocity(gradient, gap, tau0, consistency, index):
+    """Mean velocity [m/s] of a Herschel-Bulkley fluid between parallel plates."""
+    wall = gradient * gap / 2
+    if wall <= tau0:
+        return 0.0
+    rest = 1 - tau0 / wall
+    return (index / (index + 1) * gap / 2 * (wall / consistency) ** (1 / index) * rest ** (1 + 1 / index)
+            * (1 - index / (2 * index + 1) * rest))
+
+
+def gradient(run):
+    """The driving gradient [Pa/m] that annulusFoam printed last."""
+    return run.number(r" G ([-+0-9.e]+) Pa/m")
+
+
+def flow(run):
+    """The mean velocity [m/s] that annulusFoam printed last."""
+    return run.number(r"<alpha U> ([-+0-9.e]+) m/s")

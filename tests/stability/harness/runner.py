@@ -8,7 +8,7 @@ import subprocess
 import time
 from dataclasses import asdict, dataclass, field
 
-from .case_files import Case, fill, names_of
+from .case_files import IN_FILE, Case, fill, names_of
 from .measured import Measured
 
 TIMEOUT = 3600  # s per run; a case that hangs fails
@@ -29,38 +29,60 @@ class Result:
         return asdict(self)
 
 
+ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_mpi_yield_when_idle": "1",
+               "OMPI_MCA_btl_vader_single_copy_mechanism": "none", "OMPI_MCA_rmaps_base_oversubscribe": "1",
+               "WM_PROJECT_DIR": "/usr/share/openfoam"}
+
+
+def _watch(command, folder, output):
+    """Runs a program; its exit status and its resident memory, pairs of time [s] and bytes."""
+    environment = {**ENVIRONMENT, **os.environ, "PWD": str(folder)}
+    environment.pop("DISPLAY", None)  # Open MPI looks for graphics cards there, and dies with the X server
+    process = subprocess.Popen(command, cwd=folder, stdout=output, stderr=subprocess.STDOUT, env=environment)
+    memory, start = [], time.monotonic()
+    while process.poll() is None:
+        if time.monotonic() - start > TIMEOUT:
+            process.kill()
+        try:
+            with open(f"/proc/{process.pid}/statm") as statm:
+                memory.append((time.monotonic() - start, int(statm.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")))
+        except (OSError, IndexError):
+            pass  # it has just ended
+        try:
+            process.wait(0.05 if len(memory) < 200 else 1)
+        except subprocess.TimeoutExpired:
+            pass
+    return process.returncode, memory
+
+
 def _execute(case: Case, run: dict, program, folder: pathlib.Path):
-    """One run of the case's scene in a folder of its own."""
+    """One run of the case in a folder of its own."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    values = {**case.values, **run, "full_output": 1}
+    values = {**case.values, **run}
     for name, text in case.files.items():
-        (folder / name).write_text(fill(text, values))
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(fill(text, values, IN_FILE))
     (folder / "in.case").write_text(fill(case.scene, values))
     ranks = int(values.get("ranks", 1))
-    command = [str(program), "-in", "in.case", "-log", "none"]
-    if ranks > 1:
-        command = ["mpirun", "--oversubscribe", "--bind-to", "none", "-np", str(ranks)] + command
-    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                   "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
-                   "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+    commands = [fill(line, values).split() for line in case.commands] or [[program.name, "-in", "in.case", "-log", "none"]]
+    status, memory = 0, []
     with open(folder / "output", "w") as output:
-        process = subprocess.Popen(command, cwd=folder, stdout=output, stderr=subprocess.STDOUT, env=environment)
-        memory, start = [], time.monotonic()
-        while process.poll() is None:
-            if time.monotonic() - start > TIMEOUT:
-                process.kill()
-            try:
-                with open(f"/proc/{process.pid}/statm") as statm:
-                    memory.append(int(statm.read().split()[1]) * os.sysconf("SC_PAGE_SIZE"))
-            except (OSError, IndexError):
-                pass
-            try:
-                process.wait(0.02 if len(memory) < 50 else 0.5)
-            except subprocess.TimeoutExpired:
-                pass
-    text = (folder / "output").read_text(errors="replace")
-    return Measured(str(folder), text, process.returncode, memory)
+        for command in commands:
+            ours = program.parent / command[0]
+            if ours.exists():
+                command = [str(ours)] + command[1:]
+            elif not shutil.which(command[0]):
+                print(f"ERROR: there is no program {ours}: build it first", file=output, flush=True)
+                status = 127
+                break
+            if ranks > 1:
+                command = ["mpirun", "--oversubscribe", "--bind-to", "none", "-np", str(ranks)] + command
+            status, memory = _watch(command, folder, output)
+            if status:
+                break
+    return Measured(str(folder), (folder / "output").read_text(errors="replace"), status, memory)
 
 
 def _text(value):
@@ -72,9 +94,10 @@ def run(case: Case, program, folder: pathlib.Path, digest: str) -> Result:
     measured = [_execute(case, one, program, folder / f"run{i}") for i, one in enumerate(case.runs)]
     values, criteria, found, holds = [], [], [], True
     known = {"run": measured, **case.values}
-    for name in ("column", "first", "last", "largest", "early", "late", "says", "frames"):
+    for name in ("column", "first", "last", "largest", "early", "late", "says", "frames",
+                 "number"):
         known[name] = getattr(measured[0], name)
-    known["status"], known["memory"] = measured[0].status, measured[0].memory
+    known["status"], known["memory_growth"] = measured[0].status, measured[0].memory_growth
     for i, one in enumerate(measured):
         if one.status != 0 and "status" not in str(case.checks):
             lines = [line for line in one.output.splitlines() if line.strip()]

@@ -25,7 +25,8 @@ neigh_modify delay 0
 
 def material(youngs=5e6, e=0.9, friction=0.5, poisson=0.25, mu_r=0.0, mu_shape=0.0):
     """Coefficients of the only material."""
-    return f"""fix m1 all property/global youngsModulus peratomtype {youngs!r}
+    hard = "hard_particles yes\n" if youngs > 1e9 else ""
+    return hard + f"""fix m1 all property/global youngsModulus peratomtype {youngs!r}
 fix m2 all property/global poissonsRatio peratomtype {poisson!r}
 fix m3 all property/global coefficientRestitution peratomtypepair 1 {e!r}
 fix m4 all property/global coefficientFriction peratomtypepair 1 {friction!r}
@@ -101,3 +102,19 @@ def explicit_drag(tau0, consistency, index, density, fluid_velocity="0"):
     return (f"variable svx atom vx-{fluid_velocity}\nvariable svy atom vy\nvariable svz atom vz\n"
             "variable speed atom sqrt(v_svx^2+v_svy^2+v_svz^2)+1e-12\n" + force("vx") + force("vy") + force("vz") +
             "fix mud all addforce v_drag_vx v_drag_vy v_drag_vz\n")
+
+
+def wall_stress(drive, tau0, consistency, rate, index):
+    """Stress [Pa] at the plates: 0.9 tau0 for a plug, 2 tau0 for a plug of half the gap, and without yield stress
+    that of the shear rate `rate`."""
+    if drive == "plug":
+        return 0.9 * tau0
+    return 2 * tau0 if tau0 > 0 else consistency * rate**index
+
+
+def drive_words(drive, gradient, end):
+    """OpenFOAM's words for a gradient that is steady, or turns round half-way."""
+    if drive != "turns":
+        return repr(gradient)
+    half = end / 2
+    return f"table ((0 {gradient!r}) ({half!r} {gradient!r}) ({half * 1.0001!r} {-gradient!r}) ({2 * end!r} {-gradient!r}))"
