@@ -118,3 +118,8 @@ def drive_words(drive, gradient, end):
         return repr(gradient)
     half = end / 2
     return f"table ((0 {gradient!r}) ({half!r} {gradient!r}) ({half * 1.0001!r} {-gradient!r}) ({2 * end!r} {-gradient!r}))"
+
+
+def consistency(tau0, rate, index, without_yield):
+    """K [Pa s^n] for which a wall stress of 2 tau0 shears the wall at `rate`."""
+    return tau0 / rate**index if tau0 > 0 else without_yield
