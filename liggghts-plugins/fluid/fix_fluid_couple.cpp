@@ -34,6 +34,7 @@ constexpr int kTicketDoubles = 2;
 /// Entries of the vector of stock fix insert/*.
 constexpr int kInsertedNumber = 0;
 constexpr int kInsertedMass = 1;
+constexpr double kLongestWait = 1e6; ///< [s]
 
 using RowsOfThree = const double (*)[3];
 } // namespace
@@ -44,6 +45,7 @@ FixFluidCouple::FixFluidCouple(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, nar
     refuse("works on all particles: write 'fix " + std::string(id) + " all fluid/couple ...'");
   nevery = 1;
   create_attribute = 1;
+  connect();
   grow_arrays(atom->nmax);
   atom->add_callback(0);
 }
@@ -52,12 +54,26 @@ FixFluidCouple::~FixFluidCouple() {
   atom->delete_callback(id, 0);
 }
 
+// The fluid side knows from here on that somebody has come, whatever the script does before its first run.
+void FixFluidCouple::connect() {
+  if (link_ != "socket")
+    return;
+  try {
+    own_peer_ = std::make_unique<link::SocketPeer>(world, address_, patience_);
+  } catch (const link::Refusal& refusal) {
+    refuse(refusal.what());
+  }
+}
+
 void FixFluidCouple::refuse(const std::string& text) {
+  if (own_peer_)
+    own_peer_->leave(text);
   error->all(FLERR, ("fix fluid/couple '" + std::string(id) + "': " + text).c_str());
   std::abort(); // error->all does not return
 }
 
 void FixFluidCouple::read(const std::vector<std::string>& words) {
+  bool waits = false;
   for (std::size_t next = 0; next < words.size();) {
     const std::string& keyword = words[next++];
     const auto value = [&](const char* what) -> const std::string& {
@@ -66,11 +82,11 @@ void FixFluidCouple::read(const std::vector<std::string>& words) {
       return words[next++];
     };
     if (keyword == "link") {
-      link_ = value("'solver'");
+      link_ = value("solver or socket ADDRESS");
       if (link_ == "socket")
         address_ = value("an address");
       else if (link_ != "solver")
-        refuse("link '" + link_ + "' is unknown: use solver");
+        refuse("link '" + link_ + "' is unknown: use solver, or socket ADDRESS");
     } else if (keyword == "every") {
       const std::string& text = value("a number of DEM steps");
       char* end = nullptr;
@@ -78,12 +94,25 @@ void FixFluidCouple::read(const std::vector<std::string>& words) {
       if (end == text.c_str() || *end || number < 1 || number > 1000000000L)
         refuse("every has '" + text + "': give a whole number of DEM steps from 1 on");
       interval_ = static_cast<int>(number);
+    } else if (keyword == "timeout" || keyword == "wait") {
+      const std::string& text = value("seconds");
+      char* end = nullptr;
+      const double seconds = std::strtod(text.c_str(), &end);
+      if (end == text.c_str() || *end || !(seconds > 0) || seconds > kLongestWait)
+        refuse(keyword + " has '" + text + "': give a positive number of seconds up to 1e6");
+      (keyword == "wait" ? patience_.arrival : patience_.silence) = seconds;
+      waits = true;
     } else {
-      refuse("unknown word '" + keyword + "': known are link solver and every N");
+      refuse("unknown word '" + keyword +
+             "': known are link solver, link socket ADDRESS, every N, timeout SECONDS and wait SECONDS");
     }
   }
   if (link_.empty())
-    refuse("the word 'link' is missing: add link solver (the fluid solver hosts this script)");
+    refuse(
+        "the word 'link' is missing: add link solver (the fluid solver hosts this script) or link socket ADDRESS (it "
+        "runs apart)");
+  if (waits && link_ != "socket")
+    refuse("timeout and wait belong to link socket: drop them");
   if (interval_ == 0)
     refuse("the word 'every' is missing: add every N, the DEM steps from one meeting with the fluid to the next");
 }
@@ -111,7 +140,7 @@ void FixFluidCouple::init() {
       refuse("link solver needs a fluid solver that hosts this script: start annulusFoam in the case folder instead of "
              "this program");
   } else {
-    refuse("link socket is not available in this version: use link solver and start annulusFoam in the case folder");
+    peer_ = own_peer_.get();
   }
 }
 
@@ -168,8 +197,13 @@ void FixFluidCouple::end_of_step() {
 }
 
 void FixFluidCouple::post_run() {
-  if (agreed_)
+  if (!agreed_)
+    return;
+  try {
     peer_->run_ended();
+  } catch (const link::Refusal& refusal) {
+    refuse(refusal.what());
+  }
 }
 
 void FixFluidCouple::pack() {
@@ -279,7 +313,11 @@ void FixFluidCouple::meet(double elapsed) {
     particles.extent = reinterpret_cast<const double(*)[link::kExtentDoubles]>(extent_.data());
   particles.ticket = tickets_.data();
   pack_seconds_ = MPI_Wtime() - arrived;
-  peer_->meet(meeting, particles, forces_->samples());
+  try {
+    peer_->meet(meeting, particles, forces_->samples());
+  } catch (const link::Refusal& refusal) {
+    refuse(refusal.what());
+  }
   left_fluid_at_ = MPI_Wtime();
 }
 

@@ -6,6 +6,7 @@
 #include "cluster/bodies.h"
 #include "fluid/fix_fluid_force.h"
 #include "link/fluid_peer.h"
+#include "link/socket_peer.h"
 
 #include <mpi.h>
 
@@ -40,6 +41,7 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
 
  private:
   [[noreturn]] void refuse(const std::string& text);
+  void connect();
   void read(const std::vector<std::string>& words);
   link::DemTerms terms() const;
   void meet(double elapsed);
@@ -48,13 +50,14 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   link::DemTotals totals() const;
 
   std::string link_;
-  std::string address_;
+  std::string address_; ///< of link socket
+  link::Patience patience_;
   int interval_ = 0;
   int countdown_ = 0;
   bool agreed_ = false;
   bool met_ = false;
   link::FluidPeer* peer_ = nullptr;
-  std::unique_ptr<link::FluidPeer> own_peer_;
+  std::unique_ptr<link::SocketPeer> own_peer_; ///< null with link solver
   FixFluidForce* forces_ = nullptr;
   cluster::FixBodies* bodies_ = nullptr; ///< null where all particles are spheres
 

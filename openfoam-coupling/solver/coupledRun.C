@@ -6,6 +6,8 @@
 #include "demHost.h"
 #include "inputError.H"
 
+#include "link/fluid_server.h"
+
 #include "OSspecific.H"
 #include "Time.H"
 #include "cyclicPolyPatch.H"
@@ -136,27 +138,57 @@ bool coupledRun::wanted(const Time& time) {
 }
 
 void coupledRun::run() {
-  refuseUnknownKeywords(properties_, {"link", "demScript", "demLog", "voidFraction", "length", "diffusionSteps",
-                                      "momentum", "mostSolid", "fractionFloor", "tolerance", "report", "runIn"});
+  refuseUnknownKeywords(properties_,
+                        {"link", "demScript", "demLog", "voidFraction", "length", "diffusionSteps", "momentum",
+                         "mostSolid", "fractionFloor", "tolerance", "report", "runIn", "address", "timeout", "wait"});
   const word link(properties_.getOrDefault<word>("link", "solver"));
-  if (link != "solver")
-    throw inputError(properties_, "link", link, "use solver");
+  if (link != "solver" && link != "socket")
+    throw inputError(properties_, "link", link, "use solver or socket");
   const label every = properties_.getOrDefault<label>("report", kReportEvery);
   if (every < 1)
     throw inputError(properties_, "report", every, "give a whole number of meetings, at least 1");
+  const runningMpi mpi;
+  if (link == "solver")
+    hostScript();
+  else
+    serveSocket();
+  time_.writeNow();
+}
+
+void coupledRun::hostScript() {
   const fileName script(properties_.get<fileName>("demScript"));
   // The script's own paths are relative to the case.
   if (!chDir(time_.globalPath()))
     throw inputError("cannot enter the case folder " + time_.globalPath());
   if (!isFile(script))
     throw inputError(properties_, "demScript", script, "give a LIGGGHTS input script in the case folder");
-  const runningMpi mpi;
   link::hosting_solver() = this;
   run_dem_script(script, properties_.getOrDefault<fileName>("demLog", "log.liggghts"));
   link::hosting_solver() = nullptr;
   if (!flow_)
     throw inputError(properties_, "demScript", script, "it never ran a fix fluid/couple with link solver: add one");
-  time_.writeNow();
+}
+
+void coupledRun::serveSocket() {
+  const fileName address(properties_.get<fileName>("address"));
+  link::Patience patience;
+  patience.silence = properties_.getOrDefault<scalar>("timeout", patience.silence);
+  patience.arrival = properties_.getOrDefault<scalar>("wait", patience.arrival);
+  // A relative Unix path is relative to the case.
+  if (!chDir(time_.globalPath()))
+    throw inputError("cannot enter the case folder " + time_.globalPath());
+  try {
+    link::FluidServer server(MPI_COMM_WORLD, address, patience, mesh_.nCells());
+    Info << "waiting for a DEM script with fix fluid/couple link socket " << address << endl;
+    server.serve(*this);
+  } catch (const link::Refusal&) {
+    // What the flow has reached is kept.
+    if (exchange_)
+      time_.writeNow();
+    throw;
+  }
+  if (!flow_)
+    throw inputError(properties_, "address", address, "the DEM script that came there never ran its fix fluid/couple");
 }
 
 link::FluidTerms coupledRun::agree(const link::DemTerms& dem) {

@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The connection on ZeroMQ: a PAIR socket, its heartbeats, and its monitor, which tells when the other side has gone.
+#include "link/channel.h"
+
+#include <zmq.hpp>
+
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+namespace eccentra::link {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Parts of the silence after which a sign of life is asked for, and for which it is then waited; together below 1.
+constexpr double kAskAfter = 0.3;
+constexpr double kAnswerWithin = 0.6;
+/// Time that the last message of a closing side has to leave [ms].
+constexpr int kLinger = 1000;
+constexpr int kReconnect = 50; ///< [ms]
+constexpr int kNobody = -1;
+const char* const kMonitor = "inproc://eccentra-link-monitor";
+
+int milliseconds(double seconds) {
+  return std::max(1, static_cast<int>(std::lround(1000 * seconds)));
+}
+
+/// A path that another program listens on, or that is no socket, must not be taken from its owner.
+void check_path(const std::string& address, const std::string& path) {
+  struct stat status;
+  if (lstat(path.c_str(), &status) != 0)
+    return;
+  if (!S_ISSOCK(status.st_mode))
+    throw Refusal("address '" + address + "' is a file that is there already and no socket: take another path");
+  sockaddr_un name = {};
+  name.sun_family = AF_UNIX;
+  std::strncpy(name.sun_path, path.c_str(), sizeof name.sun_path - 1);
+  const int probe = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  const bool used = probe >= 0 && ::connect(probe, reinterpret_cast<sockaddr*>(&name), sizeof name) == 0;
+  if (probe >= 0)
+    ::close(probe);
+  if (used)
+    throw Refusal("address '" + address + "' is in use by another program: end it or take another path");
+}
+
+} // namespace
+
+struct Channel::Message::Parts {
+  zmq::message_t zmq;
+};
+
+Channel::Message::Message() : parts_(std::make_unique<Parts>()) {}
+Channel::Message::Message(std::size_t bytes) : parts_(new Parts{zmq::message_t(bytes)}) {}
+Channel::Message::Message(const wire::Bytes& bytes) : parts_(new Parts{zmq::message_t(bytes.data(), bytes.size())}) {}
+Channel::Message::~Message() = default;
+Channel::Message::Message(Message&&) noexcept = default;
+Channel::Message& Channel::Message::operator=(Message&&) noexcept = default;
+
+std::byte* Channel::Message::data() {
+  return static_cast<std::byte*>(parts_->zmq.data());
+}
+
+wire::View Channel::Message::view() const {
+  return {static_cast<const std::byte*>(parts_->zmq.data()), parts_->zmq.size()};
+}
+
+struct Channel::State {
+  Side side;
+  std::string address;
+  Patience patience;
+  zmq::context_t context;
+  zmq::socket_t socket;
+  zmq::socket_t monitor;
+  Clock::time_point opened = Clock::now();
+  int peer = kNobody; ///< file descriptor of the connection
+  bool came = false;  ///< its handshake is done
+  bool heard = false; ///< it has sent a message
+  bool gone = false;
+
+  State(Side s, const std::string& a, const Patience& p)
+      : side(s), address(a), patience(p), socket(context, zmq::socket_type::pair),
+        monitor(context, zmq::socket_type::pair) {}
+
+  const char* other() const { return side == Side::dem ? "the fluid side" : "the DEM side"; }
+
+  void open() {
+    check(patience);
+    const std::string endpoint = endpoint_of(address);
+    socket.set(zmq::sockopt::linger, kLinger);
+    socket.set(zmq::sockopt::maxmsgsize, static_cast<int64_t>(wire::most_bytes()));
+    socket.set(zmq::sockopt::heartbeat_ivl, milliseconds(kAskAfter * patience.silence));
+    socket.set(zmq::sockopt::heartbeat_timeout, milliseconds(kAnswerWithin * patience.silence));
+    socket.set(zmq::sockopt::handshake_ivl, milliseconds(patience.silence));
+    socket.set(zmq::sockopt::reconnect_ivl, kReconnect);
+    socket.set(zmq::sockopt::ipv6, endpoint.find("[::1]") != std::string::npos);
+    if (zmq_socket_monitor(socket.handle(), kMonitor,
+                           ZMQ_EVENT_ACCEPTED | ZMQ_EVENT_CONNECTED | ZMQ_EVENT_HANDSHAKE_SUCCEEDED |
+                               ZMQ_EVENT_DISCONNECTED) != 0)
+      throw Refusal(std::string("the link cannot watch its connection: ") + zmq_strerror(zmq_errno()));
+    monitor.connect(kMonitor);
+    if (side == Side::dem) {
+      socket.connect(endpoint);
+      return;
+    }
+    const bool unix_socket = endpoint[0] == 'i';
+    if (unix_socket)
+      check_path(address, endpoint.substr(std::strlen("ipc://")));
+    // Whoever may not write to a Unix socket cannot connect to it.
+    const mode_t usual = umask(S_IRWXG | S_IRWXO);
+    try {
+      socket.bind(endpoint);
+    } catch (const zmq::error_t& problem) {
+      umask(usual);
+      throw Refusal("address '" + address + "' cannot be used (" + problem.what() + "): take another one");
+    }
+    umask(usual);
+  }
+
+  /// Takes in what the monitor has to say.
+  void read_monitor() {
+    zmq::message_t event, endpoint;
+    while (monitor.recv(event, zmq::recv_flags::dontwait)) {
+      (void)monitor.recv(endpoint, zmq::recv_flags::none);
+      std::uint16_t what = 0;
+      std::int32_t value = 0;
+      std::memcpy(&what, event.data(), sizeof what);
+      std::memcpy(&value, static_cast<const char*>(event.data()) + sizeof what, sizeof value);
+      if (what == ZMQ_EVENT_ACCEPTED || what == ZMQ_EVENT_CONNECTED) {
+        // Who comes later is turned away by the socket itself.
+        if (peer == kNobody)
+          peer = value;
+      } else if (what == ZMQ_EVENT_HANDSHAKE_SUCCEEDED) {
+        came = came || peer != kNobody;
+      } else if (what == ZMQ_EVENT_DISCONNECTED && value == peer) {
+        peer = kNobody;
+        gone = came;
+      }
+    }
+  }
+
+  [[noreturn]] void lost() const {
+    const std::string remedy =
+        heard ? " (ended, killed, stopped or cut off): see what it printed"
+              : " before it said anything: see what it printed, and whether another run uses this address";
+    throw Refusal(std::string(other()) + " at '" + address + "' has gone" + remedy);
+  }
+
+  [[noreturn]] void missing() const {
+    char seconds[32];
+    std::snprintf(seconds, sizeof seconds, "%g", patience.arrival);
+    throw Refusal(std::string(other()) + " did not come to '" + address + "' within " + seconds + " s: start " +
+                  (side == Side::dem ? "annulusFoam with link socket and this address"
+                                     : "the DEM script with fix fluid/couple link socket and this address") +
+                  ", or give a longer wait");
+  }
+};
+
+Channel::Channel(Side side, const std::string& address, const Patience& patience)
+    : state_(std::make_unique<State>(side, address, patience)) {
+  state_->open();
+}
+
+Channel::~Channel() {
+  close();
+}
+
+void Channel::send(Message message) {
+  State& s = *state_;
+  s.read_monitor();
+  if (s.gone || !s.socket.send(message.parts_->zmq, zmq::send_flags::dontwait))
+    s.lost();
+}
+
+Channel::Message Channel::receive() {
+  State& s = *state_;
+  Message message;
+  s.read_monitor();
+  for (;;) {
+    if (s.socket.recv(message.parts_->zmq, zmq::recv_flags::dontwait)) {
+      if (message.parts_->zmq.more())
+        throw Refusal("a message comes in several parts: it is not Eccentra's, check who uses the address");
+      s.heard = true;
+      if (wire::kind_of(message.view()) == wire::Kind::refusal)
+        throw Refusal(wire::decode_refusal(message.view()));
+      return message;
+    }
+    if (s.gone)
+      s.lost();
+    long wait = -1;
+    if (!s.came) {
+      const std::chrono::duration<double> since = Clock::now() - s.opened;
+      if (since.count() >= s.patience.arrival)
+        s.missing();
+      wait = milliseconds(s.patience.arrival - since.count());
+    }
+    zmq_pollitem_t items[] = {{s.socket.handle(), 0, ZMQ_POLLIN, 0}, {s.monitor.handle(), 0, ZMQ_POLLIN, 0}};
+    if (zmq_poll(items, 2, wait) < 0 && zmq_errno() != EINTR)
+      throw Refusal(std::string("the link cannot wait: ") + zmq_strerror(zmq_errno()));
+    // Before the next look for messages: what was sent before leaving is still received.
+    s.read_monitor();
+  }
+}
+
+void Channel::refuse(const std::string& sentence) noexcept {
+  try {
+    if (state_->socket && !state_->gone)
+      send(Message(wire::encode_refusal(sentence)));
+  } catch (...) {
+    // The other side has gone already; this side's own sentence is what counts.
+  }
+  close();
+}
+
+void Channel::close() noexcept {
+  if (!state_->socket)
+    return;
+  if (!state_->came)
+    state_->socket.set(zmq::sockopt::linger, 0);
+  state_->monitor.close();
+  state_->socket.close();
+  state_->context.close();
+}
+
+} // namespace eccentra::link

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The fluid's end of the socket link: takes what the DEM job says to the fluid in this one.
+#pragma once
+
+#include "link/address.h"
+#include "link/channel.h"
+#include "link/fluid_peer.h"
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace eccentra::link {
+
+/// Rank 0 talks; it deals the particles out evenly over the ranks, from where the fluid takes them to their cells.
+class FluidServer {
+ public:
+  /// Collective over `ranks`: binds the address. `cells` of this rank's mesh bound what a ticket may name. Throws
+  /// Refusal on every rank if the address cannot be used.
+  FluidServer(MPI_Comm ranks, const std::string& address, const Patience& patience, std::int32_t cells);
+  ~FluidServer();
+
+  /// Serves one DEM job until it says farewell. Collective. Throws Refusal on every rank if it does not come, goes
+  /// without a word, refuses, or speaks nonsense; passes on what `fluid` throws. Whatever is thrown, the DEM side is
+  /// told.
+  void serve(FluidPeer& fluid);
+
+ private:
+  struct Command;
+  Command next_command();
+  void answer_terms(FluidPeer& fluid, const Command& command);
+  void answer_meeting(FluidPeer& fluid, const Command& command);
+
+  MPI_Comm ranks_;
+  std::unique_ptr<Channel> channel_;        ///< of rank 0
+  Channel::Message message_;                ///< of rank 0: the present one
+  std::vector<std::int32_t> cells_of_rank_; ///< on rank 0
+  bool agreed_ = false;
+  unsigned needed_ = 0;
+  bool extents_ = false;
+  double transport_seconds_ = 0; ///< of the last meeting; of rank 0
+};
+
+} // namespace eccentra::link

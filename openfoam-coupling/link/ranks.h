@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What rank 0 learns from the link reaches the other ranks of its side; they sleep while they wait.
+#pragma once
+
+#include "link/wire.h"
+
+#include <mpi.h>
+
+#include <functional>
+#include <vector>
+
+namespace eccentra::link {
+
+/// Waits for a request with short naps instead of spinning: rank 0 may itself be waiting for minutes.
+void wait_asleep(MPI_Request& request);
+
+/// Runs `work` on rank 0, and broadcasts what it returns; a Refusal there becomes the same Refusal on every rank.
+/// Collective.
+wire::Bytes on_root(MPI_Comm ranks, const std::function<wire::Bytes()>& work);
+
+/// Numbers of rows per rank, and where each rank's begin.
+struct Shares {
+  std::vector<int> count, begin;
+  int total = 0;
+};
+/// Gathers the numbers on rank 0 (elsewhere the result is empty). Collective.
+Shares gather_shares(MPI_Comm ranks, std::size_t count);
+/// As even as possible; the same on every rank.
+Shares even_shares(MPI_Comm ranks, std::size_t count);
+
+/// Rows of `row_bytes` from all ranks to rank 0, or from it to all. `shares` and `all` count on rank 0 only.
+/// Collective.
+void gather_rows(MPI_Comm ranks, const std::byte* mine, int count, std::size_t row_bytes, const Shares& shares,
+                 std::byte* all);
+void scatter_rows(MPI_Comm ranks, const std::byte* all, const Shares& shares, std::size_t row_bytes, std::byte* mine,
+                  int count);
+
+} // namespace eccentra::link

@@ -1,0 +1,502 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Encodes and decodes the messages of the socket link.
+#include "link/wire.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace eccentra::link::wire {
+namespace {
+
+static_assert(sizeof(double) == 8 && std::numeric_limits<double>::is_iec559, "numbers travel as IEEE 754 binary64");
+
+constexpr char kMagic[8] = {'E', 'C', 'C', 'E', 'N', 'T', 'R', 'A'};
+/// Reads differently on a machine of the other byte order.
+constexpr std::uint32_t kByteOrder = 0x01020304;
+constexpr int kQuantities = 5;
+/// Doubles of each fluid::Quantity, in the order of their bits.
+constexpr std::size_t kDoublesOf[kQuantities] = {3, 1, 3, 3, 3};
+constexpr std::size_t kParticleDoubles = 3 + 1 + 3 + 1;
+constexpr std::size_t kVolumeAt = 3;
+constexpr std::uint64_t kExponent = 0x7ff0000000000000; ///< of a binary64
+
+[[noreturn]] void broken(const std::string& what) {
+  throw Refusal("a message of the other side " + what +
+                ": it is broken or not Eccentra's, check who uses the address and install the same release on both "
+                "sides");
+}
+
+/// Appends plain values.
+class Writer {
+ public:
+  explicit Writer(std::byte* to) : to_(to) {}
+  template <class Value> void put(Value value) { raw(&value, sizeof value); }
+  void raw(const void* from, std::size_t bytes) {
+    if (bytes > 0)
+      std::memcpy(to_, from, bytes);
+    to_ += bytes;
+  }
+
+ private:
+  std::byte* to_;
+};
+
+/// Takes plain values off what is left; never beyond it.
+class Reader {
+ public:
+  explicit Reader(View view) : view_(view) {}
+  std::size_t left() const { return view_.size; }
+  const std::byte* here() const { return view_.data; }
+  template <class Value> Value take() {
+    if (view_.size < sizeof(Value))
+      broken("ends too early");
+    Value value;
+    std::memcpy(&value, view_.data, sizeof value);
+    view_.data += sizeof value;
+    view_.size -= sizeof value;
+    return value;
+  }
+  double number() {
+    const double value = take<double>();
+    if (!std::isfinite(value))
+      broken("holds a value that is no number");
+    return value;
+  }
+  bool yes_or_no() {
+    const auto value = take<std::uint32_t>();
+    if (value > 1)
+      broken("holds neither yes nor no where one of them belongs");
+    return value == 1;
+  }
+  unsigned quantities() {
+    const auto bits = take<std::uint32_t>();
+    if (bits & ~kKnownQuantities)
+      broken("names fluid quantities that do not exist");
+    return bits;
+  }
+  void end() const {
+    if (view_.size != 0)
+      broken("is longer than its contents");
+  }
+
+ private:
+  View view_;
+};
+
+void write_header(std::byte* message, Kind kind, std::size_t body) {
+  Writer out(message);
+  out.raw(kMagic, sizeof kMagic);
+  out.put(kByteOrder);
+  out.put(kProtocolVersion);
+  out.put(static_cast<std::uint32_t>(kind));
+  out.put(static_cast<std::uint32_t>(sizeof(double)));
+  out.put(static_cast<std::uint64_t>(body));
+}
+
+struct Header {
+  std::uint32_t version;
+  Kind kind;
+};
+
+Header read_header(Reader& in) {
+  if (in.left() < kHeaderBytes)
+    broken("is shorter than a header");
+  char magic[sizeof kMagic];
+  for (char& c : magic)
+    c = in.take<char>();
+  if (std::memcmp(magic, kMagic, sizeof kMagic) != 0)
+    broken("does not begin with ECCENTRA");
+  if (in.take<std::uint32_t>() != kByteOrder)
+    throw Refusal("the other side's machine has another order of bytes: run both sides on machines of one kind");
+  Header header;
+  header.version = in.take<std::uint32_t>();
+  const auto kind = in.take<std::uint32_t>();
+  if (kind < static_cast<std::uint32_t>(Kind::dem_terms) || kind > static_cast<std::uint32_t>(Kind::farewell))
+    broken("is of an unknown kind");
+  header.kind = static_cast<Kind>(kind);
+  if (in.take<std::uint32_t>() != sizeof(double))
+    throw Refusal("the other side's numbers have another size: run both sides on machines of one kind");
+  if (in.take<std::uint64_t>() != in.left())
+    broken("does not have the length that it states");
+  if (header.version != kProtocolVersion && header.kind != Kind::refusal)
+    throw Refusal("this side speaks version " + std::to_string(kProtocolVersion) + " of the protocol and the other " +
+                  std::to_string(header.version) + ": install the same release of Eccentra on both");
+  return header;
+}
+
+Reader body_of(View message, Kind kind) {
+  Reader in(message);
+  if (read_header(in).kind != kind)
+    broken("is not of the kind that is due");
+  return in;
+}
+
+Bytes with_header(Kind kind, std::size_t body) {
+  Bytes message(kHeaderBytes + body);
+  write_header(message.data(), kind, body);
+  return message;
+}
+
+void put_extents(Writer& out, const Extents& extents) {
+  out.raw(extents.low, sizeof extents.low);
+  out.raw(extents.high, sizeof extents.high);
+  for (const bool periodic : extents.periodic)
+    out.put(std::uint32_t(periodic));
+  out.put(std::uint32_t(0));
+}
+
+Extents take_extents(Reader& in) {
+  Extents extents;
+  for (double& x : extents.low)
+    x = in.number();
+  for (double& x : extents.high)
+    x = in.number();
+  for (bool& periodic : extents.periodic)
+    periodic = in.yes_or_no();
+  in.take<std::uint32_t>();
+  return extents;
+}
+
+constexpr std::size_t kExtentsBytes = 6 * 8 + 4 * 4;
+constexpr std::size_t kDemTermsBytes = 8 + 2 * 8 + 2 * 8 + kExtentsBytes + 2 * 4 + 4 * 8;
+constexpr std::size_t kFluidTermsBytes = 8 + 2 * 8 + kExtentsBytes + 2 * 4 + 8;
+
+double* as_double(std::vector<double>& values, bool wanted) {
+  return wanted ? values.data() : nullptr;
+}
+
+/// An array that is wanted has an address even without rows: collective calls tell by it what is asked for.
+void size_for(std::vector<double>& values, std::size_t count, unsigned quantities, int bit) {
+  if (quantities & (1u << bit))
+    values.assign(std::max<std::size_t>(count * kDoublesOf[bit], 1), 0.0);
+}
+
+void check_finite(const std::byte* row, std::size_t doubles, std::size_t index, const char* what) {
+  // By bits, so that the loop vectorises: all ones in the exponent is infinity or no number.
+  std::uint64_t none = 0;
+  for (std::size_t k = 0; k < doubles; ++k) {
+    std::uint64_t bits;
+    std::memcpy(&bits, row + sizeof bits * k, sizeof bits);
+    none |= std::uint64_t((bits & kExponent) == kExponent);
+  }
+  if (none)
+    throw Refusal(std::string("a value of ") + what + " " + std::to_string(index) +
+                  " is no number: the run has blown up, reduce the time steps");
+}
+
+std::size_t checked_count(Reader& in) {
+  const auto count = in.take<std::uint64_t>();
+  if (count > kMostParticles)
+    broken("speaks of more particles than the " + std::to_string(kMostParticles) + " that the link carries");
+  return count;
+}
+
+} // namespace
+
+std::size_t particle_row_bytes(bool extents) {
+  return sizeof(double) * (kParticleDoubles + (extents ? kExtentDoubles : 0)) + sizeof(Ticket);
+}
+
+std::size_t samples_row_bytes(unsigned quantities) {
+  std::size_t doubles = 0;
+  for (int bit = 0; bit < kQuantities; ++bit)
+    doubles += quantities & (1u << bit) ? kDoublesOf[bit] : 0;
+  return sizeof(double) * doubles + sizeof(Ticket);
+}
+
+std::size_t most_bytes() {
+  return kHeaderBytes + kMeetingBytes + kMostParticles * particle_row_bytes(true);
+}
+
+Bytes encode(const DemTerms& terms) {
+  Bytes message = with_header(Kind::dem_terms, kDemTermsBytes);
+  Writer out(message.data() + kHeaderBytes);
+  out.put(terms.protocol);
+  out.put(std::uint32_t(terms.extents));
+  out.put(terms.length_unit);
+  out.put(terms.time_step);
+  out.put(terms.interval);
+  out.put(terms.particles);
+  put_extents(out, terms.domain);
+  out.put(std::uint32_t(terms.needed));
+  out.put(std::uint32_t(0));
+  out.put(terms.fluid_density);
+  out.raw(terms.gravity, sizeof terms.gravity);
+  return message;
+}
+
+DemTerms decode_dem_terms(View message) {
+  Reader in = body_of(message, Kind::dem_terms);
+  DemTerms terms;
+  terms.protocol = in.take<std::uint32_t>();
+  terms.extents = in.yes_or_no();
+  terms.length_unit = in.number();
+  terms.time_step = in.number();
+  terms.interval = in.take<std::int64_t>();
+  terms.particles = in.take<std::int64_t>();
+  terms.domain = take_extents(in);
+  terms.needed = in.quantities();
+  in.take<std::uint32_t>();
+  terms.fluid_density = in.number();
+  for (double& g : terms.gravity)
+    g = in.number();
+  in.end();
+  if (terms.particles < 0 || std::uint64_t(terms.particles) > kMostParticles)
+    throw Refusal("the DEM side has " + std::to_string(terms.particles) +
+                  " particles but link socket carries at most " + std::to_string(kMostParticles) + ": use link solver");
+  return terms;
+}
+
+Bytes encode(const FluidTerms& terms) {
+  Bytes message = with_header(Kind::fluid_terms, kFluidTermsBytes);
+  Writer out(message.data() + kHeaderBytes);
+  out.put(terms.protocol);
+  out.put(std::uint32_t(0));
+  out.put(terms.length_unit);
+  out.put(terms.time_step);
+  put_extents(out, terms.domain);
+  out.put(std::uint32_t(terms.offered));
+  out.put(std::uint32_t(0));
+  out.put(terms.fluid_density);
+  return message;
+}
+
+FluidTerms decode_fluid_terms(View message) {
+  Reader in = body_of(message, Kind::fluid_terms);
+  FluidTerms terms;
+  terms.protocol = in.take<std::uint32_t>();
+  in.take<std::uint32_t>();
+  terms.length_unit = in.number();
+  terms.time_step = in.number();
+  terms.domain = take_extents(in);
+  terms.offered = in.quantities();
+  in.take<std::uint32_t>();
+  terms.fluid_density = in.number();
+  in.end();
+  return terms;
+}
+
+Bytes encode_refusal(const std::string& sentence) {
+  const std::size_t length = std::min(sentence.size(), kMostText);
+  Bytes message = with_header(Kind::refusal, length);
+  Writer(message.data() + kHeaderBytes).raw(sentence.data(), length);
+  return message;
+}
+
+std::string decode_refusal(View message) {
+  const Reader in = body_of(message, Kind::refusal);
+  if (in.left() > kMostText)
+    broken("is longer than a sentence");
+  std::string text(reinterpret_cast<const char*>(in.here()), in.left());
+  // What is printed on a terminal must not command it.
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~')
+      c = '?';
+  return text;
+}
+
+Bytes encode_bare(Kind kind) {
+  return with_header(kind, 0);
+}
+
+Kind kind_of(View message) {
+  Reader in(message);
+  const Kind kind = read_header(in).kind;
+  if (kind == Kind::run_ended || kind == Kind::farewell)
+    in.end();
+  return kind;
+}
+
+void write_meeting_head(std::byte* message, const Meeting& meeting, std::size_t count, bool extents) {
+  write_header(message, Kind::meeting, kMeetingBytes + count * particle_row_bytes(extents));
+  Writer out(message + kHeaderBytes);
+  out.put(std::uint64_t(count));
+  out.put(std::uint32_t(extents));
+  out.put(std::uint32_t(0));
+  out.put(meeting.elapsed);
+  out.put(meeting.dem_seconds);
+  out.put(meeting.pack_seconds);
+  out.put(meeting.steps_done);
+  out.put(meeting.steps_total);
+  const DemTotals& totals = meeting.totals;
+  out.put(totals.particles);
+  out.put(totals.inserted);
+  for (const double value : {totals.inserted_mass, totals.volume, totals.mass, totals.fastest})
+    out.put(value);
+  for (const double(*vector)[3] : {&totals.impulse, &totals.momentum, &totals.volume_position, &totals.volume_velocity})
+    out.raw(*vector, sizeof *vector);
+}
+
+Rows decode_meeting(View message, bool extents, Meeting& meeting) {
+  Reader in = body_of(message, Kind::meeting);
+  Rows rows;
+  rows.count = checked_count(in);
+  if (in.yes_or_no() != extents)
+    broken("has rows of another length than the terms said");
+  in.take<std::uint32_t>();
+  for (double* value : {&meeting.elapsed, &meeting.dem_seconds, &meeting.pack_seconds})
+    *value = in.number();
+  meeting.steps_done = in.take<std::int64_t>();
+  meeting.steps_total = in.take<std::int64_t>();
+  DemTotals& totals = meeting.totals;
+  totals.particles = in.take<std::int64_t>();
+  totals.inserted = in.take<std::int64_t>();
+  for (double* value : {&totals.inserted_mass, &totals.volume, &totals.mass, &totals.fastest})
+    *value = in.number();
+  for (double(*vector)[3] : {&totals.impulse, &totals.momentum, &totals.volume_position, &totals.volume_velocity})
+    for (double& x : *vector)
+      x = in.number();
+  if (meeting.elapsed < 0 || totals.particles < 0 || std::uint64_t(totals.particles) != rows.count)
+    broken("contradicts itself about time or particles");
+  const std::size_t row_bytes = particle_row_bytes(extents);
+  if (in.left() != rows.count * row_bytes)
+    broken("does not hold the particles that it states");
+  rows.data = in.here();
+  for (std::size_t i = 0; i < rows.count; ++i) {
+    const std::byte* row = rows.data + i * row_bytes;
+    check_finite(row, (row_bytes - sizeof(Ticket)) / sizeof(double), i, "particle row");
+    double volume;
+    std::memcpy(&volume, row + kVolumeAt * sizeof volume, sizeof volume);
+    if (!(volume > 0))
+      broken("holds a particle without volume");
+  }
+  return rows;
+}
+
+void write_samples_head(std::byte* message, std::size_t count, unsigned quantities) {
+  write_header(message, Kind::samples, kSamplesBytes + count * samples_row_bytes(quantities));
+  Writer out(message + kHeaderBytes);
+  out.put(std::uint64_t(count));
+  out.put(std::uint32_t(quantities));
+  out.put(std::uint32_t(0));
+}
+
+Rows decode_samples(View message, std::size_t count, unsigned quantities) {
+  Reader in = body_of(message, Kind::samples);
+  Rows rows;
+  rows.count = checked_count(in);
+  const unsigned sent = in.quantities();
+  in.take<std::uint32_t>();
+  if (rows.count != count || sent != quantities)
+    broken("answers another question than was asked");
+  const std::size_t row_bytes = samples_row_bytes(quantities);
+  if (in.left() != rows.count * row_bytes)
+    broken("does not hold the samples that it states");
+  rows.data = in.here();
+  for (std::size_t i = 0; i < rows.count; ++i)
+    check_finite(rows.data + i * row_bytes, (row_bytes - sizeof(Ticket)) / sizeof(double), i, "samples row");
+  return rows;
+}
+
+void check_tickets(Rows rows, bool extents, const std::vector<std::int32_t>& cells_of_rank) {
+  const std::size_t row_bytes = particle_row_bytes(extents);
+  for (std::size_t i = 0; i < rows.count; ++i) {
+    Ticket ticket;
+    std::memcpy(&ticket, rows.data + (i + 1) * row_bytes - sizeof ticket, sizeof ticket);
+    if (ticket.rank < 0)
+      continue;
+    if (std::size_t(ticket.rank) >= cells_of_rank.size() || ticket.cell < 0 ||
+        ticket.cell >= cells_of_rank[ticket.rank])
+      broken("holds a particle that was found in a cell that does not exist");
+  }
+}
+
+void pack_particles(const ParticleArrays& particles, bool extents, std::byte* rows) {
+  Writer out(rows);
+  for (std::size_t i = 0; i < particles.count; ++i) {
+    out.raw(particles.position[i], sizeof particles.position[i]);
+    out.put(particles.volume[i]);
+    out.raw(particles.impulse[i], sizeof particles.impulse[i]);
+    out.put(particles.drag_coefficient[i]);
+    if (extents)
+      out.raw(particles.extent[i], sizeof particles.extent[i]);
+    out.put(particles.ticket[i]);
+  }
+}
+
+Guests::Guests(Rows rows, bool extents, unsigned quantities)
+    : count_(rows.count), quantities_(quantities), extents_(extents), position_(3 * rows.count), volume_(rows.count),
+      impulse_(3 * rows.count), drag_(rows.count), extent_(extents ? kExtentDoubles * rows.count + 1 : 0),
+      ticket_(rows.count) {
+  const std::size_t row_bytes = particle_row_bytes(extents);
+  for (std::size_t i = 0; i < count_; ++i) {
+    Reader in({rows.data + i * row_bytes, row_bytes});
+    for (int k = 0; k < 3; ++k)
+      position_[3 * i + k] = in.take<double>();
+    volume_[i] = in.take<double>();
+    for (int k = 0; k < 3; ++k)
+      impulse_[3 * i + k] = in.take<double>();
+    drag_[i] = in.take<double>();
+    for (int k = 0; extents && k < kExtentDoubles; ++k)
+      extent_[kExtentDoubles * i + k] = in.take<double>();
+    ticket_[i] = in.take<Ticket>();
+    if (ticket_[i].rank < 0)
+      ticket_[i] = Ticket{};
+  }
+  int bit = 0;
+  for (std::vector<double>* values : {&velocity_, &fraction_, &pressure_gradient_, &stress_divergence_, &vorticity_})
+    size_for(*values, count_, quantities, bit++);
+}
+
+ParticleArrays Guests::particles() {
+  ParticleArrays arrays;
+  arrays.count = count_;
+  arrays.position = reinterpret_cast<const double(*)[3]>(position_.data());
+  arrays.volume = volume_.data();
+  arrays.impulse = reinterpret_cast<const double(*)[3]>(impulse_.data());
+  arrays.drag_coefficient = drag_.data();
+  if (extents_)
+    arrays.extent = reinterpret_cast<const double(*)[kExtentDoubles]>(extent_.data());
+  arrays.ticket = ticket_.data();
+  return arrays;
+}
+
+fluid::FluidSamples Guests::samples() {
+  using Vectors = double(*)[3];
+  fluid::FluidSamples samples;
+  samples.velocity = reinterpret_cast<Vectors>(as_double(velocity_, quantities_ & fluid::kVelocity));
+  samples.fraction = as_double(fraction_, quantities_ & fluid::kFraction);
+  samples.pressure_gradient =
+      reinterpret_cast<Vectors>(as_double(pressure_gradient_, quantities_ & fluid::kPressureGradient));
+  samples.stress_divergence =
+      reinterpret_cast<Vectors>(as_double(stress_divergence_, quantities_ & fluid::kStressDivergence));
+  samples.vorticity = reinterpret_cast<Vectors>(as_double(vorticity_, quantities_ & fluid::kVorticity));
+  return samples;
+}
+
+void Guests::pack_samples(std::byte* rows) {
+  Writer out(rows);
+  const std::vector<double>* const arrays[kQuantities] = {&velocity_, &fraction_, &pressure_gradient_,
+                                                          &stress_divergence_, &vorticity_};
+  for (std::size_t i = 0; i < count_; ++i) {
+    for (int bit = 0; bit < kQuantities; ++bit)
+      if (quantities_ & (1u << bit))
+        out.raw(arrays[bit]->data() + i * kDoublesOf[bit], kDoublesOf[bit] * sizeof(double));
+    out.put(ticket_[i]);
+  }
+}
+
+void unpack_samples(Rows rows, unsigned quantities, const fluid::FluidSamples& samples, Ticket* tickets) {
+  double* const arrays[kQuantities] = {reinterpret_cast<double*>(samples.velocity), samples.fraction,
+                                       reinterpret_cast<double*>(samples.pressure_gradient),
+                                       reinterpret_cast<double*>(samples.stress_divergence),
+                                       reinterpret_cast<double*>(samples.vorticity)};
+  const std::byte* from = rows.data;
+  for (std::size_t i = 0; i < rows.count; ++i) {
+    for (int bit = 0; bit < kQuantities; ++bit) {
+      if (!(quantities & (1u << bit)))
+        continue;
+      const std::size_t bytes = kDoublesOf[bit] * sizeof(double);
+      if (arrays[bit])
+        std::memcpy(arrays[bit] + i * kDoublesOf[bit], from, bytes);
+      from += bytes;
+    }
+    std::memcpy(&tickets[i], from, sizeof(Ticket));
+    from += sizeof(Ticket);
+  }
+}
+
+} // namespace eccentra::link::wire

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The messages of the socket link as bytes: layout, bounds, and a decoder that trusts nothing. No sockets, no MPI.
+// The layout is documented in docs/link.md.
+#pragma once
+
+#include "link/fluid_peer.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace eccentra::link::wire {
+
+enum class Kind : std::uint32_t {
+  dem_terms = 1,   ///< DEM to fluid: DemTerms
+  fluid_terms = 2, ///< fluid to DEM: FluidTerms
+  refusal = 3,     ///< either way: one sentence; the sender goes on no longer. Readable in every version
+  meeting = 4,     ///< DEM to fluid: Meeting and one row per particle
+  samples = 5,     ///< fluid to DEM: one row per particle, in the order received
+  run_ended = 6,   ///< DEM to fluid: this run of the script has ended as intended
+  farewell = 7,    ///< DEM to fluid: the script has ended as intended
+};
+
+/// Bytes before the body of every message.
+constexpr std::size_t kHeaderBytes = 32;
+/// Bytes between the header and the rows of a meeting.
+constexpr std::size_t kMeetingBytes = 200;
+/// Bytes between the header and the rows of the samples.
+constexpr std::size_t kSamplesBytes = 16;
+/// No message speaks of more particles; rows stay below what MPI counts in one call.
+constexpr std::uint64_t kMostParticles = 10'000'000;
+/// Longest sentence of a refusal.
+constexpr std::size_t kMostText = 2048;
+/// All quantities that a message may ask for.
+constexpr unsigned kKnownQuantities = 31;
+
+/// Bytes of one particle to the fluid: position, volume, impulse, drag coefficient, [extent,] ticket.
+std::size_t particle_row_bytes(bool extents);
+/// Bytes of one particle's samples: the quantities asked for in the order of their bits, ticket.
+std::size_t samples_row_bytes(unsigned quantities);
+/// No message of this protocol is longer.
+std::size_t most_bytes();
+
+/// A message as received; not owned.
+struct View {
+  const std::byte* data = nullptr;
+  std::size_t size = 0;
+};
+
+using Bytes = std::vector<std::byte>;
+
+// All encoders return header and body; those with rows write what precedes the rows of a message that the caller holds.
+Bytes encode(const DemTerms& terms);
+Bytes encode(const FluidTerms& terms);
+Bytes encode_refusal(const std::string& sentence);
+Bytes encode_bare(Kind kind); ///< run_ended or farewell
+/// `message` has room for kHeaderBytes + kMeetingBytes; `count` rows follow them.
+void write_meeting_head(std::byte* message, const Meeting& meeting, std::size_t count, bool extents);
+/// `message` has room for kHeaderBytes + kSamplesBytes; `count` rows follow them.
+void write_samples_head(std::byte* message, std::size_t count, unsigned quantities);
+
+/// Rows of a message, still in it.
+struct Rows {
+  std::size_t count = 0;
+  const std::byte* data = nullptr;
+};
+
+// The decoders throw Refusal with one sentence unless every size is what is there and every number is finite; none
+// allocates more than the message's own size.
+/// Checks the header, too: magic, byte order, sizes of numbers, version (of all but a refusal), length of the body.
+Kind kind_of(View message);
+DemTerms decode_dem_terms(View message);
+FluidTerms decode_fluid_terms(View message);
+std::string decode_refusal(View message);
+/// `extents` as the DEM side's terms said. Volumes are positive.
+Rows decode_meeting(View message, bool extents, Meeting& meeting);
+/// `count` and `quantities` as they were asked for.
+Rows decode_samples(View message, std::size_t count, unsigned quantities);
+/// Throws Refusal unless each ticket is blank or names a rank that is there and one of its cells.
+void check_tickets(Rows rows, bool extents, const std::vector<std::int32_t>& cells_of_rank);
+
+/// Writes all rows of `particles` to `rows`.
+void pack_particles(const ParticleArrays& particles, bool extents, std::byte* rows);
+
+/// Particles unpacked from rows, with room for their samples.
+class Guests {
+ public:
+  Guests(Rows rows, bool extents, unsigned quantities);
+  ParticleArrays particles();
+  /// Arrays of the quantities asked for, null for the others, also where there is no particle.
+  fluid::FluidSamples samples();
+  /// Writes samples and tickets to `rows`.
+  void pack_samples(std::byte* rows);
+
+ private:
+  std::size_t count_;
+  unsigned quantities_;
+  bool extents_;
+  std::vector<double> position_, volume_, impulse_, drag_, extent_;
+  std::vector<Ticket> ticket_;
+  std::vector<double> velocity_, fraction_, pressure_gradient_, stress_divergence_, vorticity_;
+};
+
+/// Puts samples and tickets where the DEM side wants them; a quantity whose array is null is passed over.
+void unpack_samples(Rows rows, unsigned quantities, const fluid::FluidSamples& samples, Ticket* tickets);
+
+} // namespace eccentra::link::wire

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One valid message of each kind, and a reader that treats any bytes as both sides do.
+#pragma once
+
+#include "link/wire.h"
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+namespace eccentra::test {
+
+constexpr unsigned kAsked = fluid::kVelocity | fluid::kFraction | fluid::kPressureGradient;
+constexpr std::size_t kRows = 3;
+
+/// Particles with values that tell rows and columns apart.
+struct SomeParticles {
+  double position[kRows][3], volume[kRows], impulse[kRows][3], drag[kRows], extent[kRows][link::kExtentDoubles];
+  link::Ticket ticket[kRows];
+
+  SomeParticles() {
+    for (std::size_t i = 0; i < kRows; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        position[i][k] = 100.0 * i + k;
+        impulse[i][k] = -100.0 * i - k;
+      }
+      for (int k = 0; k < link::kExtentDoubles; ++k)
+        extent[i][k] = 1000.0 * i + k;
+      volume[i] = 1.5 + i;
+      drag[i] = 0.25 * i;
+      ticket[i] = {static_cast<std::int32_t>(i) - 1, static_cast<std::int32_t>(7 * i)};
+    }
+  }
+  link::ParticleArrays arrays() { return {kRows, position, volume, impulse, drag, extent, ticket}; }
+};
+
+inline link::Meeting some_meeting() {
+  link::Meeting meeting;
+  meeting.elapsed = 2e-3;
+  meeting.dem_seconds = 0.5;
+  meeting.steps_done = 40;
+  meeting.steps_total = 80;
+  meeting.totals.particles = kRows;
+  meeting.totals.volume_velocity[2] = 3.25;
+  meeting.totals.fastest = 0.75;
+  return meeting;
+}
+
+inline link::wire::Bytes meeting_message(bool extents) {
+  using namespace link::wire;
+  constexpr std::size_t head = kHeaderBytes + kMeetingBytes;
+  Bytes message(head + kRows * particle_row_bytes(extents));
+  write_meeting_head(message.data(), some_meeting(), kRows, extents);
+  SomeParticles particles;
+  pack_particles(particles.arrays(), extents, message.data() + head);
+  return message;
+}
+
+inline link::wire::Bytes samples_message() {
+  using namespace link::wire;
+  constexpr std::size_t head = kHeaderBytes + kSamplesBytes;
+  const Bytes meeting = meeting_message(true);
+  link::Meeting unused;
+  Guests guests(decode_meeting({meeting.data(), meeting.size()}, true, unused), true, kAsked);
+  const fluid::FluidSamples samples = guests.samples();
+  for (std::size_t i = 0; i < kRows; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      samples.velocity[i][k] = 10.0 * i + k;
+      samples.pressure_gradient[i][k] = -10.0 * i - k;
+    }
+    samples.fraction[i] = 0.5 + 0.1 * i;
+  }
+  Bytes message(head + kRows * samples_row_bytes(kAsked));
+  write_samples_head(message.data(), kRows, kAsked);
+  guests.pack_samples(message.data() + head);
+  return message;
+}
+
+inline std::vector<link::wire::Bytes> valid_messages() {
+  using namespace link::wire;
+  link::DemTerms dem;
+  dem.time_step = 5e-5;
+  dem.interval = 40;
+  dem.needed = kAsked;
+  link::FluidTerms fluid;
+  fluid.offered = kKnownQuantities;
+  return {encode(dem),           encode(fluid),     encode_refusal("no"),         meeting_message(false),
+          meeting_message(true), samples_message(), encode_bare(Kind::run_ended), encode_bare(Kind::farewell)};
+}
+
+/// Decodes a message as whoever receives it would, and uses all of what is accepted. True if it was accepted.
+inline bool accepted(const std::byte* data, std::size_t size) {
+  using namespace link::wire;
+  const View message{data, size};
+  try {
+    switch (kind_of(message)) {
+    case Kind::dem_terms: {
+      const link::DemTerms terms = decode_dem_terms(message);
+      (void)link::disagreement(terms, link::FluidTerms());
+      break;
+    }
+    case Kind::fluid_terms: {
+      const link::FluidTerms terms = decode_fluid_terms(message);
+      (void)link::disagreement(link::DemTerms(), terms);
+      break;
+    }
+    case Kind::refusal:
+      (void)decode_refusal(message);
+      break;
+    case Kind::meeting: {
+      // Rows with and without extents: whichever fits.
+      for (const bool extents : {false, true}) {
+        try {
+          link::Meeting meeting;
+          const Rows rows = decode_meeting(message, extents, meeting);
+          check_tickets(rows, extents, {8, 20});
+          Guests guests(rows, extents, kAsked);
+          Bytes answer(rows.count * samples_row_bytes(kAsked));
+          guests.pack_samples(answer.data());
+          return true;
+        } catch (const link::Refusal&) {
+          if (extents)
+            throw;
+        }
+      }
+      break;
+    }
+    case Kind::samples: {
+      const Rows rows = decode_samples(message, kRows, kAsked);
+      double velocity[kRows][3], fraction[kRows], gradient[kRows][3];
+      link::Ticket tickets[kRows];
+      fluid::FluidSamples samples;
+      samples.velocity = velocity;
+      samples.fraction = fraction;
+      samples.pressure_gradient = gradient;
+      unpack_samples(rows, kAsked, samples, tickets);
+      break;
+    }
+    default:
+      break;
+    }
+    return true;
+  } catch (const link::Refusal&) {
+    return false;
+  }
+}
+
+} // namespace eccentra::test

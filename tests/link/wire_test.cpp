@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Messages arrive as they were sent; broken and hostile ones are refused with a sentence before anything is made of
+// them.
+#include "link/wire_samples.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+namespace {
+
+using namespace eccentra::link;
+using namespace eccentra::test;
+using wire::Bytes;
+using wire::View;
+
+constexpr int kMutations = 200000;
+constexpr std::size_t kKindAt = 16, kVersionAt = 12, kOrderAt = 8, kDoubleSizeAt = 20, kLengthAt = 24;
+
+View view(const Bytes& message) {
+  return {message.data(), message.size()};
+}
+
+template <class Value> Bytes with(Bytes message, std::size_t at, Value value) {
+  std::memcpy(message.data() + at, &value, sizeof value);
+  return message;
+}
+
+template <class Work> void expect_refusal(Work&& work, const std::string& part) {
+  try {
+    work();
+    ADD_FAILURE() << "accepted; expected: " << part;
+  } catch (const Refusal& refusal) {
+    const std::string text = refusal.what();
+    EXPECT_NE(text.find(part), std::string::npos) << "said: " << text;
+    EXPECT_EQ(text.find('\n'), std::string::npos);
+  }
+}
+
+} // namespace
+
+TEST(Wire, TermsArriveAsSent) {
+  DemTerms dem;
+  dem.time_step = 7.8125e-5;
+  dem.interval = 64;
+  dem.particles = 1212;
+  dem.needed = kAsked;
+  dem.extents = true;
+  dem.fluid_density = 1030;
+  dem.gravity[1] = -9.81;
+  dem.domain.low[2] = -0.5;
+  dem.domain.high[0] = 0.25;
+  dem.domain.periodic[2] = true;
+  const DemTerms got = wire::decode_dem_terms(view(wire::encode(dem)));
+  EXPECT_EQ(got.time_step, dem.time_step);
+  EXPECT_EQ(got.interval, 64);
+  EXPECT_EQ(got.particles, 1212);
+  EXPECT_EQ(got.needed, kAsked);
+  EXPECT_TRUE(got.extents);
+  EXPECT_EQ(got.fluid_density, 1030);
+  EXPECT_EQ(got.gravity[1], -9.81);
+  EXPECT_EQ(got.domain.low[2], -0.5);
+  EXPECT_EQ(got.domain.high[0], 0.25);
+  EXPECT_TRUE(got.domain.periodic[2]);
+  EXPECT_FALSE(got.domain.periodic[0]);
+
+  FluidTerms fluid;
+  fluid.time_step = 5e-3;
+  fluid.offered = wire::kKnownQuantities;
+  fluid.fluid_density = 1000;
+  fluid.domain.high[1] = 2;
+  const FluidTerms back = wire::decode_fluid_terms(view(wire::encode(fluid)));
+  EXPECT_EQ(back.time_step, 5e-3);
+  EXPECT_EQ(back.offered, wire::kKnownQuantities);
+  EXPECT_EQ(back.fluid_density, 1000);
+  EXPECT_EQ(back.domain.high[1], 2);
+}
+
+TEST(Wire, MeetingArrivesAsSent) {
+  for (const bool extents : {false, true}) {
+    const Bytes message = meeting_message(extents);
+    Meeting meeting;
+    const wire::Rows rows = wire::decode_meeting(view(message), extents, meeting);
+    EXPECT_EQ(meeting.elapsed, 2e-3);
+    EXPECT_EQ(meeting.steps_total, 80);
+    EXPECT_EQ(meeting.totals.volume_velocity[2], 3.25);
+    EXPECT_EQ(meeting.totals.fastest, 0.75);
+    wire::Guests guests(rows, extents, kAsked);
+    const ParticleArrays got = guests.particles();
+    SomeParticles sent;
+    ASSERT_EQ(got.count, kRows);
+    EXPECT_EQ(got.extent != nullptr, extents);
+    for (std::size_t i = 0; i < kRows; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_EQ(got.position[i][k], sent.position[i][k]);
+        EXPECT_EQ(got.impulse[i][k], sent.impulse[i][k]);
+      }
+      for (int k = 0; extents && k < kExtentDoubles; ++k)
+        EXPECT_EQ(got.extent[i][k], sent.extent[i][k]);
+      EXPECT_EQ(got.volume[i], sent.volume[i]);
+      EXPECT_EQ(got.drag_coefficient[i], sent.drag[i]);
+      EXPECT_EQ(got.ticket[i].rank, sent.ticket[i].rank);
+      if (sent.ticket[i].rank >= 0) {
+        EXPECT_EQ(got.ticket[i].cell, sent.ticket[i].cell);
+      }
+    }
+  }
+}
+
+TEST(Wire, SamplesArriveAsSentAndOnlyWhatIsAskedForTravels) {
+  const Bytes message = samples_message();
+  EXPECT_EQ(message.size(), wire::kHeaderBytes + wire::kSamplesBytes + kRows * (7 * 8 + 8));
+  const wire::Rows rows = wire::decode_samples(view(message), kRows, kAsked);
+  double velocity[kRows][3], fraction[kRows];
+  Ticket tickets[kRows];
+  eccentra::fluid::FluidSamples samples;
+  samples.velocity = velocity;
+  samples.fraction = fraction; // the gradient is not wanted after all
+  wire::unpack_samples(rows, kAsked, samples, tickets);
+  for (std::size_t i = 0; i < kRows; ++i) {
+    EXPECT_EQ(velocity[i][2], 10.0 * i + 2);
+    EXPECT_EQ(fraction[i], 0.5 + 0.1 * i);
+    EXPECT_EQ(tickets[i].rank, static_cast<int>(i) - 1);
+  }
+}
+
+TEST(Wire, ArraysThatAreAskedForExistWithoutParticles) {
+  wire::Guests guests({0, nullptr}, true, kAsked);
+  EXPECT_NE(guests.samples().velocity, nullptr);
+  EXPECT_NE(guests.particles().extent, nullptr);
+  EXPECT_EQ(guests.samples().vorticity, nullptr);
+}
+
+TEST(Wire, HeadersThatDoNotFitAreRefused) {
+  const Bytes message = meeting_message(false);
+  const auto read = [](const Bytes& bytes) { return [&bytes] { wire::kind_of(view(bytes)); }; };
+  expect_refusal(read(Bytes()), "shorter than a header");
+  expect_refusal(read(with(message, 0, 'X')), "does not begin with ECCENTRA");
+  expect_refusal(read(with(message, kOrderAt, std::uint32_t(0x04030201))), "order of bytes");
+  expect_refusal(read(with(message, kVersionAt, kProtocolVersion + 1)), "install the same release");
+  expect_refusal(read(with(message, kKindAt, std::uint32_t(99))), "unknown kind");
+  expect_refusal(read(with(message, kDoubleSizeAt, std::uint32_t(4))), "another size");
+  expect_refusal(read(with(message, kLengthAt, ~std::uint64_t(0))), "length that it states");
+}
+
+TEST(Wire, RefusalsOfOtherVersionsAreReadableAndHarmless) {
+  const Bytes message = with(wire::encode_refusal("other\nrelease\x1b[2J"), kVersionAt, kProtocolVersion + 1);
+  EXPECT_EQ(wire::kind_of(view(message)), wire::Kind::refusal);
+  EXPECT_EQ(wire::decode_refusal(view(message)), "other?release?[2J");
+  EXPECT_EQ(wire::decode_refusal(view(wire::encode_refusal(std::string(1 << 20, 'x')))).size(), wire::kMostText);
+}
+
+TEST(Wire, EveryTruncationIsRefused) {
+  for (const Bytes& message : valid_messages()) {
+    ASSERT_TRUE(accepted(message.data(), message.size()));
+    for (std::size_t size = 0; size < message.size(); ++size) {
+      const Bytes cut(message.begin(), message.begin() + size); // its own block: a sanitizer sees any read beyond it
+      EXPECT_FALSE(accepted(cut.data(), cut.size()));
+      if (size < wire::kHeaderBytes)
+        continue;
+      // And with a header that states the shorter length; a refusal may have any.
+      const Bytes honest = with(cut, kLengthAt, std::uint64_t(size - wire::kHeaderBytes));
+      if (wire::kind_of(view(message)) != wire::Kind::refusal) {
+        EXPECT_FALSE(accepted(honest.data(), honest.size()));
+      }
+    }
+  }
+}
+
+TEST(Wire, CountsThatAreNotThereAreRefusedBeforeAnythingIsAllocated) {
+  Meeting meeting;
+  for (const std::uint64_t count : {std::uint64_t(4), wire::kMostParticles, wire::kMostParticles + 1, ~std::uint64_t(0),
+                                    ~std::uint64_t(0) / wire::particle_row_bytes(false) + 1}) {
+    const Bytes message = with(meeting_message(false), wire::kHeaderBytes, count);
+    EXPECT_THROW(wire::decode_meeting(view(message), false, meeting), Refusal) << count;
+  }
+  const Bytes more = with(samples_message(), wire::kHeaderBytes, std::uint64_t(kRows + 1));
+  expect_refusal([&] { wire::decode_samples(view(more), kRows, kAsked); }, "another question");
+}
+
+TEST(Wire, NumbersThatAreNoneAreRefused) {
+  constexpr std::size_t rows = wire::kHeaderBytes + wire::kMeetingBytes;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Meeting meeting;
+  const Bytes position = with(meeting_message(false), rows, nan);
+  expect_refusal([&] { wire::decode_meeting(view(position), false, meeting); }, "particle row 0 is no number");
+  const Bytes volume = with(meeting_message(false), rows + 24, 0.0);
+  expect_refusal([&] { wire::decode_meeting(view(volume), false, meeting); }, "without volume");
+  const Bytes sample = with(samples_message(), wire::kHeaderBytes + wire::kSamplesBytes, nan);
+  expect_refusal([&] { wire::decode_samples(view(sample), kRows, kAsked); }, "samples row 0 is no number");
+}
+
+TEST(Wire, TicketsOfCellsThatDoNotExistAreRefused) {
+  Meeting meeting;
+  const Bytes message = meeting_message(false);
+  const wire::Rows rows = wire::decode_meeting(view(message), false, meeting); // tickets: none, (0, 7), (1, 14)
+  EXPECT_NO_THROW(wire::check_tickets(rows, false, {8, 15}));
+  EXPECT_THROW(wire::check_tickets(rows, false, {7, 15}), Refusal);
+  EXPECT_THROW(wire::check_tickets(rows, false, {8, 14}), Refusal);
+  EXPECT_THROW(wire::check_tickets(rows, false, {8}), Refusal);
+}
+
+// Bytes changed at random, in lengths and counts above all: refused or harmless, never a crash.
+TEST(Wire, RandomMutationsDoNoHarm) {
+  const std::vector<Bytes> valid = valid_messages();
+  std::mt19937_64 random(20240607);
+  const auto below = [&random](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+  int refused = 0;
+  for (int n = 0; n < kMutations; ++n) {
+    Bytes message = valid[below(valid.size())];
+    const std::size_t changes = 1 + below(4);
+    for (std::size_t c = 0; c < changes && !message.empty(); ++c) {
+      switch (below(5)) {
+      case 0:
+        message[below(message.size())] ^= std::byte(1u << below(8));
+        break;
+      case 1:
+        message[below(message.size())] = std::byte(random());
+        break;
+      case 2:
+        message.resize(below(message.size() + 1));
+        break;
+      case 3:
+        message.resize(message.size() + below(64), std::byte(random()));
+        break;
+      default: { // a word of the header or of what follows it
+        const std::uint64_t words[] = {0, 1, 3, 7, 1u << 31, ~std::uint64_t(0), wire::kMostParticles, random()};
+        const std::size_t at = 4 * below(20);
+        if (at + 8 <= message.size())
+          message = with(message, at, words[below(std::size(words))]);
+      }
+      }
+    }
+    // Half of them with an honest length, so that what lies behind the header is reached.
+    if (message.size() >= wire::kHeaderBytes && below(2))
+      message = with(message, kLengthAt, std::uint64_t(message.size() - wire::kHeaderBytes));
+    message.shrink_to_fit();
+    refused += !accepted(message.data(), message.size());
+  }
+  EXPECT_GT(refused, kMutations / 2);
+  EXPECT_LT(refused, kMutations);
+}
