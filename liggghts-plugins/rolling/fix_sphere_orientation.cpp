@@ -79,6 +79,13 @@ int FixSphereOrientation::setmask() {
   return LAMMPS_NS::FixConst::POST_INTEGRATE | LAMMPS_NS::FixConst::PRE_FORCE;
 }
 
+void FixSphereOrientation::init() {
+  if (!property_)
+    error->all(FLERR,
+               "fix rolling/orientation is made by pair_style gran ... rolling_friction eccentric: remove it from "
+               "the script");
+}
+
 void FixSphereOrientation::setup_pre_force(int vflag) {
   pre_force(vflag);
 }

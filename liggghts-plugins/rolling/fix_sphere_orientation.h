@@ -38,6 +38,8 @@ class FixSphereOrientation : public LAMMPS_NS::Fix {
   }
 
   int setmask() override;
+  /// Stops with a sentence where no model has made this fix.
+  void init() override;
   void setup_pre_force(int vflag) override;
   void post_integrate() override;
   void pre_force(int vflag) override;

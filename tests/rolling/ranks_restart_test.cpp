@@ -94,10 +94,11 @@ double largest_difference(const States& a, const States& b) {
 
 class Invariance : public ::testing::TestWithParam<const char*> {};
 
+// Not the form directional: its torque jumps with the sign of a spin of round-off size (page of the model).
+class RankInvariance : public Invariance {};
+
 // Sums of forces come in another order: round-off, which contacts amplify over 0.04 s.
-TEST_P(Invariance, OneRankEqualsTwo) {
-  if (std::string(GetParam()) == "form directional")
-    GTEST_SKIP() << "its torque jumps with the sign of a spin of round-off size: see the page of the model";
+TEST_P(RankInvariance, OneRankEqualsTwo) {
   RollingScene scene;
   scene.words = GetParam();
   scene.mu_shape = 0.32;
@@ -135,6 +136,8 @@ TEST_P(Invariance, RestartContinues) {
   EXPECT_EQ(largest_difference(through, after), 0);
 }
 
+INSTANTIATE_TEST_SUITE_P(Shape, RankInvariance, ::testing::Values("form limited", "form epsd"),
+                         [](const auto& info) { return std::string(info.param).substr(5); });
 INSTANTIATE_TEST_SUITE_P(Shape, Invariance, ::testing::Values("form limited", "form epsd", "form directional"),
                          [](const auto& info) { return std::string(info.param).substr(5); });
 
