@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The connection on ZeroMQ: a PAIR socket, its heartbeats, and its monitor, which tells when the other side has gone.
+// The connection on ZeroMQ: DEALER to ROUTER, their heartbeats, and the monitor, which tells when the other side has
+// gone. The ROUTER hears everybody and holds with the first who speaks the protocol: strangers cannot keep the sides
+// apart.
 #include "link/channel.h"
 
 #include <zmq.hpp>
@@ -14,6 +16,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <set>
 
 namespace eccentra::link {
 namespace {
@@ -80,13 +83,16 @@ struct Channel::State {
   zmq::socket_t socket;
   zmq::socket_t monitor;
   Clock::time_point opened = Clock::now();
-  int peer = kNobody; ///< file descriptor of the connection
-  bool came = false;  ///< its handshake is done
-  bool heard = false; ///< it has sent a message
+  std::set<int> connections; ///< file descriptors
+  int peer = kNobody;        ///< the one that the other side speaks through
+  std::string peer_name;     ///< the ROUTER's name for it
+  bool came = false;         ///< somebody who speaks ZeroMQ is or was there
+  bool heard = false;        ///< it has sent a message
   bool gone = false;
 
   State(Side s, const std::string& a, const Patience& p)
-      : side(s), address(a), patience(p), socket(context, zmq::socket_type::pair),
+      : side(s), address(a), patience(p),
+        socket(context, s == Side::dem ? zmq::socket_type::dealer : zmq::socket_type::router),
         monitor(context, zmq::socket_type::pair) {}
 
   const char* other() const { return side == Side::dem ? "the fluid side" : "the DEM side"; }
@@ -110,6 +116,7 @@ struct Channel::State {
       socket.connect(endpoint);
       return;
     }
+    socket.set(zmq::sockopt::router_mandatory, true);
     const bool unix_socket = endpoint[0] == 'i';
     if (unix_socket)
       check_path(address, endpoint.substr(std::strlen("ipc://")));
@@ -133,17 +140,57 @@ struct Channel::State {
       std::int32_t value = 0;
       std::memcpy(&what, event.data(), sizeof what);
       std::memcpy(&value, static_cast<const char*>(event.data()) + sizeof what, sizeof value);
-      if (what == ZMQ_EVENT_ACCEPTED || what == ZMQ_EVENT_CONNECTED) {
-        // Who comes later is turned away by the socket itself.
-        if (peer == kNobody)
-          peer = value;
-      } else if (what == ZMQ_EVENT_HANDSHAKE_SUCCEEDED) {
-        came = came || peer != kNobody;
-      } else if (what == ZMQ_EVENT_DISCONNECTED && value == peer) {
-        peer = kNobody;
-        gone = came;
-      }
+      if (what == ZMQ_EVENT_ACCEPTED || what == ZMQ_EVENT_CONNECTED)
+        connections.insert(value);
+      else if (what == ZMQ_EVENT_HANDSHAKE_SUCCEEDED)
+        came = true;
+      else if (what == ZMQ_EVENT_DISCONNECTED && connections.erase(value) > 0)
+        gone = gone || (heard ? value == peer : came && connections.empty());
     }
+  }
+
+  /// False if the other side is not there.
+  bool send(const std::string& to, zmq::message_t& message) {
+    try {
+      if (side == Side::fluid && !socket.send(zmq::buffer(to), zmq::send_flags::dontwait | zmq::send_flags::sndmore))
+        return false;
+      return bool(socket.send(message, zmq::send_flags::dontwait));
+    } catch (const zmq::error_t&) {
+      return false;
+    }
+  }
+
+  void turn_away(const std::string& stranger, const std::string& sentence) {
+    const wire::Bytes bytes = wire::encode_refusal(sentence);
+    zmq::message_t message(bytes.data(), bytes.size());
+    (void)send(stranger, message);
+  }
+
+  /// Takes the next message of the other side, if there is one.
+  bool take(zmq::message_t& message) {
+    for (zmq::message_t name; socket.recv(side == Side::fluid ? name : message, zmq::recv_flags::dontwait);) {
+      // The parts of a message come together.
+      int parts = 1;
+      if (side == Side::fluid)
+        (void)socket.recv(message, zmq::recv_flags::none);
+      for (zmq::message_t rest; parts == 1 ? message.more() : rest.more(); ++parts)
+        (void)socket.recv(rest, zmq::recv_flags::none);
+      const bool ours = parts == 1 && wire::is_ours({static_cast<const std::byte*>(message.data()), message.size()});
+      const std::string from = side == Side::fluid ? name.to_string() : "";
+      if (!heard && ours) {
+        heard = true;
+        peer_name = from;
+        peer = zmq_msg_get(message.handle(), ZMQ_SRCFD);
+        return true;
+      }
+      if (heard && from == peer_name) {
+        if (!ours)
+          throw Refusal("a message is not Eccentra's: check who uses the address");
+        return true;
+      }
+      turn_away(from, "another run uses this address, or the message is not Eccentra's: take another address");
+    }
+    return false;
   }
 
   [[noreturn]] void lost() const {
@@ -175,7 +222,7 @@ Channel::~Channel() {
 void Channel::send(Message message) {
   State& s = *state_;
   s.read_monitor();
-  if (s.gone || !s.socket.send(message.parts_->zmq, zmq::send_flags::dontwait))
+  if (s.gone || !s.send(s.peer_name, message.parts_->zmq))
     s.lost();
 }
 
@@ -184,10 +231,7 @@ Channel::Message Channel::receive() {
   Message message;
   s.read_monitor();
   for (;;) {
-    if (s.socket.recv(message.parts_->zmq, zmq::recv_flags::dontwait)) {
-      if (message.parts_->zmq.more())
-        throw Refusal("a message comes in several parts: it is not Eccentra's, check who uses the address");
-      s.heard = true;
+    if (s.take(message.parts_->zmq)) {
       if (wire::kind_of(message.view()) == wire::Kind::refusal)
         throw Refusal(wire::decode_refusal(message.view()));
       return message;

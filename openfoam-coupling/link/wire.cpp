@@ -302,6 +302,10 @@ Bytes encode_bare(Kind kind) {
   return with_header(kind, 0);
 }
 
+bool is_ours(View message) {
+  return message.size >= kHeaderBytes && std::memcmp(message.data, kMagic, sizeof kMagic) == 0;
+}
+
 Kind kind_of(View message) {
   Reader in(message);
   const Kind kind = read_header(in).kind;

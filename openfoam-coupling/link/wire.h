@@ -69,6 +69,8 @@ struct Rows {
 
 // The decoders throw Refusal with one sentence unless every size is what is there and every number is finite; none
 // allocates more than the message's own size.
+/// True if it begins as a message of this protocol does, of whatever version.
+bool is_ours(View message);
 /// Checks the header, too: magic, byte order, sizes of numbers, version (of all but a refusal), length of the body.
 Kind kind_of(View message);
 DemTerms decode_dem_terms(View message);
