@@ -83,6 +83,7 @@ struct Channel::State {
   zmq::socket_t socket;
   zmq::socket_t monitor;
   Clock::time_point opened = Clock::now();
+  std::string bound_path;    ///< of the Unix socket that is ours to remove
   std::set<int> connections; ///< file descriptors
   int peer = kNobody;        ///< the one that the other side speaks through
   std::string peer_name;     ///< the ROUTER's name for it
@@ -129,6 +130,8 @@ struct Channel::State {
       throw Refusal("address '" + address + "' cannot be used (" + problem.what() + "): take another one");
     }
     umask(usual);
+    if (unix_socket)
+      bound_path = endpoint.substr(std::strlen("ipc://"));
   }
 
   /// Takes in what the monitor has to say.
@@ -271,6 +274,8 @@ void Channel::close() noexcept {
   state_->monitor.close();
   state_->socket.close();
   state_->context.close();
+  if (!state_->bound_path.empty())
+    ::unlink(state_->bound_path.c_str());
 }
 
 } // namespace eccentra::link

@@ -69,12 +69,15 @@ TEST(Channel, MessagesCrossWhoeverComesFirst) {
   }
 }
 
-TEST(Channel, SocketIsOpenToItsOwnerOnly) {
+TEST(Channel, SocketIsOpenToItsOwnerOnlyAndGoesWithIt) {
   const std::string place = path("mode");
-  const Channel fluid(Side::fluid, place, {});
   struct stat status;
-  ASSERT_EQ(stat(place.c_str(), &status), 0);
-  EXPECT_EQ(status.st_mode & (S_IRWXG | S_IRWXO), 0u);
+  {
+    const Channel fluid(Side::fluid, place, {});
+    ASSERT_EQ(stat(place.c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & (S_IRWXG | S_IRWXO), 0u);
+  }
+  EXPECT_NE(stat(place.c_str(), &status), 0);
 }
 
 TEST(Channel, SidesThatLeaveAreNoticedAtOnce) {
