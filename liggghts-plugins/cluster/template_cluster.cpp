@@ -171,7 +171,8 @@ void FixTemplateCluster::init_ptilist(int count, bool, FixPropertyAtom* release)
   if (pti_list)
     error->one(FLERR, "internal error: the insertion list of a template was made twice");
   n_pti_max = count;
-  // smalloc, because FixTemplateSphere::delete_ptilist frees with sfree.
+  // smalloc, because FixTemplateSphere::delete_ptilist frees with sfree; the array holds pointers.
+  // NOLINTNEXTLINE(bugprone-sizeof-expression)
   pti_list = static_cast<ParticleToInsert**>(memory->smalloc(count * sizeof(ParticleToInsert*), "pti_list"));
   for (int i = 0; i < count; ++i)
     pti_list[i] = new ClusterToInsert(lmp, release);
