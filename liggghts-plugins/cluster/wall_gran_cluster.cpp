@@ -263,6 +263,8 @@ bool FixWallGranCluster::share_damping_of_one_normal(int i, std::size_t first, c
 }
 
 void FixWallGranCluster::share_damping(int i, std::size_t first) {
+  if (touches_.size() == first)
+    return;
   const bool plain = is_plain_sphere(i);
   if (plain && touches_.size() == first + 1)
     return;
