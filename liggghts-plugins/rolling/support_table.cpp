@@ -81,7 +81,7 @@ Eigen::Vector3d SupportTable::centre_of(int cell, double& half_angle) {
     p[last] = 2.0 * v / kCellsPerEdge - 1.0;
     return p.normalized().eval();
   };
-  const Eigen::Vector3d centre = point(row + 0.5, column + 0.5);
+  Eigen::Vector3d centre = point(row + 0.5, column + 0.5);
   half_angle = 0;
   for (const int u : {0, 1})
     for (const int v : {0, 1})
