@@ -147,7 +147,7 @@ void draw_charts(const std::vector<Case>& cases, const std::vector<Summary>& sum
   }
   for (std::size_t part = 0; part < parts; ++part) {
     vtkPlot* plot = cost->AddPlot(vtkChart::BAR);
-    plot->SetInputData(table, 0, static_cast<vtkIdType>(part + 1));
+    plot->SetInputData(table, 0, static_cast<vtkIdType>(part) + 1);
     const Colour& c = colours[part];
     plot->SetColor(c[0], c[1], c[2], 255);
     plot->SetLabel(summaries[0].seconds[part].first);

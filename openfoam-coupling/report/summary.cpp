@@ -162,8 +162,8 @@ std::string to_text(const std::vector<Summary>& summaries) {
   for (const auto& [name, unit] : lines) {
     text += fmt::format("{:<{}}", unit.empty() ? name : name + " [" + unit + "]", first);
     for (const Summary& s : summaries) {
-      const auto q =
-          std::find_if(s.quantities.begin(), s.quantities.end(), [&](const Quantity& x) { return x.name == name; });
+      const auto q = std::find_if(s.quantities.begin(), s.quantities.end(),
+                                  [&name = name](const Quantity& x) { return x.name == name; });
       text += fmt::format("{:>{}}", q == s.quantities.end() ? "-" : cell(*q), wide);
     }
     text += "\n";
