@@ -18,7 +18,9 @@ double disc_below(double r, double h) {
     return 0;
   if (h >= r)
     return pi * r * r;
-  return r * r * std::acos(-h / r) + h * std::sqrt(r * r - h * h);
+  // r - h is exact near the rim, where acos(-h / r) and r * r - h * h would lose half of the digits.
+  const double half_chord = std::sqrt((r - h) * (r + h));
+  return r * r * std::atan2(half_chord, -h) + h * half_chord;
 }
 
 /// Volume of the sphere of radius r below the plane at signed distance h from its centre.
