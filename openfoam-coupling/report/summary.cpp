@@ -129,10 +129,13 @@ Summary summarise(const Case& data, double share, std::size_t layers) {
     summary.quantities.push_back({"bed height (profile)", "mm", mean_of(height), 1000});
     summary.quantities.push_back({"solid slower than 10 mm/s", "%", mean_of(rest), 100});
   }
+  // The row of the start tells what was there before the fluid's first step with particles: no balance to judge.
+  const std::ptrdiff_t first_step = time.size() > 1 && time.front() == 0 ? 1 : 0;
   for (const Column& c : errors)
     if (data.run.has(c.column)) {
       const auto& all = data.run.columns.at(c.column);
-      summary.quantities.push_back({c.name, c.unit, {*std::max_element(all.begin(), all.end()), 0}, c.scale});
+      summary.quantities.push_back(
+          {c.name, c.unit, {*std::max_element(all.begin() + first_step, all.end()), 0}, c.scale});
     }
   for (const char* part : parts) {
     const std::string column = std::string(part) + "_seconds";
