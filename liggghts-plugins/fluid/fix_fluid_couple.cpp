@@ -158,6 +158,8 @@ link::DemTerms FixFluidCouple::terms() const {
   terms.needed = forces_->needs();
   terms.extents = bodies_ != nullptr;
   terms.fluid_density = forces_->rho_f();
+  const fluid::Rheology& law = forces_->rheology();
+  terms.rheology = {law.yield_stress, law.consistency, law.index};
   for (int i = 0; i < modify->nfix; ++i)
     if (std::strcmp(modify->fix[i]->style, "gravity") == 0)
       static_cast<FixGravity*>(modify->fix[i])->get_gravity(terms.gravity);

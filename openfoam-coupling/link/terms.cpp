@@ -14,6 +14,8 @@ namespace {
 constexpr double kSame = 1e-6;
 /// Two boxes describe the same place if they share at least this part of the longer of the two, per direction.
 constexpr double kSharedPart = 0.5;
+/// Components of gravity are typed with a few digits: this part of its size is agreement (0.06 degrees).
+constexpr double kSameGravity = 1e-3;
 
 bool same(double a, double b) {
   return std::abs(a - b) <= kSame * std::max(std::abs(a), std::abs(b));
@@ -51,6 +53,31 @@ std::string extents_disagreement(const Extents& dem, const Extents& fluid) {
   return "";
 }
 
+double size(const double (&v)[3]) {
+  return std::hypot(v[0], v[1], v[2]);
+}
+
+std::string rheology_disagreement(const FlowCurve& dem, const FlowCurve& fluid) {
+  const bool told = dem.consistency > 0 && fluid.consistency > 0;
+  if (!told || (same(dem.yield_stress, fluid.yield_stress) && same(dem.consistency, fluid.consistency) &&
+                same(dem.index, fluid.index)))
+    return "";
+  return sentence("the fluid's rheology is tau0 %g Pa, k %g Pa s^n, n %g in fix fluid/force but tau0 %g, k %g, n %g in "
+                  "constant/transportProperties: make both the same",
+                  dem.yield_stress, dem.consistency, dem.index, fluid.yield_stress, fluid.consistency, fluid.index);
+}
+
+std::string gravity_disagreement(const DemTerms& dem, const FluidTerms& fluid) {
+  const double difference[3] = {dem.gravity[0] - fluid.gravity[0], dem.gravity[1] - fluid.gravity[1],
+                                dem.gravity[2] - fluid.gravity[2]};
+  if (!fluid.has_gravity || size(difference) <= kSameGravity * std::max(size(dem.gravity), size(fluid.gravity)))
+    return "";
+  return sentence(
+      "gravity is (%g %g %g) m/s2 in the DEM script (fix gravity) but (%g %g %g) in constant/g: make both the "
+      "same, or remove constant/g, which the flow does not need",
+      dem.gravity[0], dem.gravity[1], dem.gravity[2], fluid.gravity[0], fluid.gravity[1], fluid.gravity[2]);
+}
+
 } // namespace
 
 std::string disagreement(const DemTerms& dem, const FluidTerms& fluid) {
@@ -79,7 +106,9 @@ std::string disagreement(const DemTerms& dem, const FluidTerms& fluid) {
   if (dem.fluid_density > 0 && !same(dem.fluid_density, fluid.fluid_density))
     return sentence("the fluid's density is %g kg/m3 in fix fluid/force but %g kg/m3 in the solver: make both the same",
                     dem.fluid_density, fluid.fluid_density);
-  return "";
+  if (const std::string text = rheology_disagreement(dem.rheology, fluid.rheology); !text.empty())
+    return text;
+  return gravity_disagreement(dem, fluid);
 }
 
 } // namespace eccentra::link

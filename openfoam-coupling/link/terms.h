@@ -10,13 +10,20 @@
 namespace eccentra::link {
 
 /// Raised whenever the layout or the meaning of anything that crosses the link changes.
-constexpr std::uint32_t kProtocolVersion = 1;
+constexpr std::uint32_t kProtocolVersion = 2;
 
 /// A box aligned with the axes [m] and the directions in which it repeats.
 struct Extents {
   double low[3] = {0, 0, 0};
   double high[3] = {0, 0, 0};
   bool periodic[3] = {false, false, false};
+};
+
+/// A Herschel-Bulkley law as a user states it: tau = yield_stress + consistency rate^index [Pa, Pa s^n, -].
+struct FlowCurve {
+  double yield_stress = 0.0;
+  double consistency = 0.0; ///< 0: this side has no such law to compare
+  double index = 0.0;
 };
 
 /// The DEM side's statement.
@@ -30,6 +37,7 @@ struct DemTerms {
   unsigned needed = 0;           ///< fluid::Quantity bits that the declared closures ask for
   bool extents = false;          ///< particles come with their extent (clusters), not with their volume alone
   double fluid_density = 0.0;    ///< that the closures were told [kg/m3]; 0: none was
+  FlowCurve rheology;            ///< that the closures were told
   double gravity[3] = {0, 0, 0}; ///< that acts on the particles [m/s2]
 };
 
@@ -41,6 +49,9 @@ struct FluidTerms {
   Extents domain;             ///< bounding box of the mesh
   unsigned offered = 0;       ///< fluid::Quantity bits that it can compute
   double fluid_density = 0.0; ///< [kg/m3]
+  FlowCurve rheology;         ///< without the regularisation, which is the solver's own
+  bool has_gravity = false;   ///< constant/g exists; the flow itself needs none
+  double gravity[3] = {0, 0, 0};
 };
 
 /// One of the two sides, or what lies between them, cannot go on; what() is the one sentence for the user.

@@ -160,9 +160,24 @@ Extents take_extents(Reader& in) {
   return extents;
 }
 
+void put_flow_curve(Writer& out, const FlowCurve& law) {
+  out.put(law.yield_stress);
+  out.put(law.consistency);
+  out.put(law.index);
+}
+
+FlowCurve take_flow_curve(Reader& in) {
+  FlowCurve law;
+  law.yield_stress = in.number();
+  law.consistency = in.number();
+  law.index = in.number();
+  return law;
+}
+
 constexpr std::size_t kExtentsBytes = 6 * 8 + 4 * 4;
-constexpr std::size_t kDemTermsBytes = 8 + 2 * 8 + 2 * 8 + kExtentsBytes + 2 * 4 + 4 * 8;
-constexpr std::size_t kFluidTermsBytes = 8 + 2 * 8 + kExtentsBytes + 2 * 4 + 8;
+constexpr std::size_t kFlowCurveBytes = 3 * 8;
+constexpr std::size_t kDemTermsBytes = 8 + 2 * 8 + 2 * 8 + kExtentsBytes + 2 * 4 + 8 + kFlowCurveBytes + 3 * 8;
+constexpr std::size_t kFluidTermsBytes = 8 + 2 * 8 + kExtentsBytes + 2 * 4 + 8 + kFlowCurveBytes + 3 * 8;
 
 double* as_double(std::vector<double>& values, bool wanted) {
   return wanted ? values.data() : nullptr;
@@ -224,6 +239,7 @@ Bytes encode(const DemTerms& terms) {
   out.put(std::uint32_t(terms.needed));
   out.put(std::uint32_t(0));
   out.put(terms.fluid_density);
+  put_flow_curve(out, terms.rheology);
   out.raw(terms.gravity, sizeof terms.gravity);
   return message;
 }
@@ -241,6 +257,7 @@ DemTerms decode_dem_terms(View message) {
   terms.needed = in.quantities();
   in.take<std::uint32_t>();
   terms.fluid_density = in.number();
+  terms.rheology = take_flow_curve(in);
   for (double& g : terms.gravity)
     g = in.number();
   in.end();
@@ -254,13 +271,15 @@ Bytes encode(const FluidTerms& terms) {
   Bytes message = with_header(Kind::fluid_terms, kFluidTermsBytes);
   Writer out(message.data() + kHeaderBytes);
   out.put(terms.protocol);
-  out.put(std::uint32_t(0));
+  out.put(std::uint32_t(terms.has_gravity));
   out.put(terms.length_unit);
   out.put(terms.time_step);
   put_extents(out, terms.domain);
   out.put(std::uint32_t(terms.offered));
   out.put(std::uint32_t(0));
   out.put(terms.fluid_density);
+  put_flow_curve(out, terms.rheology);
+  out.raw(terms.gravity, sizeof terms.gravity);
   return message;
 }
 
@@ -268,13 +287,16 @@ FluidTerms decode_fluid_terms(View message) {
   Reader in = body_of(message, Kind::fluid_terms);
   FluidTerms terms;
   terms.protocol = in.take<std::uint32_t>();
-  in.take<std::uint32_t>();
+  terms.has_gravity = in.yes_or_no();
   terms.length_unit = in.number();
   terms.time_step = in.number();
   terms.domain = take_extents(in);
   terms.offered = in.quantities();
   in.take<std::uint32_t>();
   terms.fluid_density = in.number();
+  terms.rheology = take_flow_curve(in);
+  for (double& g : terms.gravity)
+    g = in.number();
   in.end();
   return terms;
 }

@@ -5,6 +5,7 @@
 
 #include "demHost.h"
 #include "inputError.H"
+#include "statedTerms.H"
 
 #include "link/fluid_server.h"
 
@@ -203,6 +204,8 @@ link::FluidTerms coupledRun::agree(const link::DemTerms& dem) {
   terms.domain = extentsOf(mesh_);
   terms.offered = kOffered;
   terms.fluid_density = flow_->rho();
+  terms.rheology = statedRheology(flow_->rheology(), flow_->rho());
+  stateGravity(mesh_, terms);
   const std::string text = link::disagreement(dem, terms);
   if (!text.empty())
     throw link::Refusal(text);

@@ -114,3 +114,41 @@ TEST(Terms, OtherFluidDensityIsRefused) {
   sides.fluid.fluid_density = 1030;
   sides.expectRefusal("1000 kg/m3 in fix fluid/force but 1030 kg/m3");
 }
+
+TEST(Terms, OtherRheologyIsRefused) {
+  Sides sides;
+  sides.dem.rheology = {1, 0.28, 0.65};
+  sides.fluid.rheology = {1, 0.28, 0.56};
+  sides.expectRefusal("tau0 1 Pa, k 0.28 Pa s^n, n 0.65 in fix fluid/force but tau0 1, k 0.28, n 0.56");
+  sides.fluid.rheology = {2, 0.28, 0.65};
+  sides.expectRefusal("tau0 2");
+  sides.fluid.rheology = {1, 0.3, 0.65};
+  sides.expectRefusal("k 0.3");
+}
+
+TEST(Terms, RheologyThatOneSideCannotStateIsNotCompared) {
+  Sides sides;
+  sides.dem.rheology = {1, 0.28, 0.65};
+  EXPECT_EQ(disagreement(sides.dem, sides.fluid), "");
+}
+
+TEST(Terms, OtherGravityIsRefused) {
+  Sides sides;
+  sides.fluid.has_gravity = true;
+  sides.fluid.gravity[1] = -9.81;
+  sides.expectRefusal("gravity is (0 0 0) m/s2 in the DEM script (fix gravity) but (0 -9.81 0) in constant/g");
+  sides.dem.gravity[2] = -9.81;
+  sides.expectRefusal("gravity is (0 0 -9.81)");
+  sides.fluid.has_gravity = false;
+  EXPECT_EQ(disagreement(sides.dem, sides.fluid), "");
+}
+
+TEST(Terms, GravityTypedWithFewDigitsAgrees) {
+  Sides sides;
+  sides.fluid.has_gravity = true;
+  sides.fluid.gravity[1] = -9.81 * 0.98480775;
+  sides.fluid.gravity[2] = -9.81 * 0.17364818;
+  sides.dem.gravity[1] = -9.66;
+  sides.dem.gravity[2] = -1.703;
+  EXPECT_EQ(disagreement(sides.dem, sides.fluid), "");
+}

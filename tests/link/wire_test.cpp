@@ -50,6 +50,7 @@ TEST(Wire, TermsArriveAsSent) {
   dem.extents = true;
   dem.fluid_density = 1030;
   dem.gravity[1] = -9.81;
+  dem.rheology = {1, 0.28, 0.65};
   dem.domain.low[2] = -0.5;
   dem.domain.high[0] = 0.25;
   dem.domain.periodic[2] = true;
@@ -61,6 +62,9 @@ TEST(Wire, TermsArriveAsSent) {
   EXPECT_TRUE(got.extents);
   EXPECT_EQ(got.fluid_density, 1030);
   EXPECT_EQ(got.gravity[1], -9.81);
+  EXPECT_EQ(got.rheology.yield_stress, 1);
+  EXPECT_EQ(got.rheology.consistency, 0.28);
+  EXPECT_EQ(got.rheology.index, 0.65);
   EXPECT_EQ(got.domain.low[2], -0.5);
   EXPECT_EQ(got.domain.high[0], 0.25);
   EXPECT_TRUE(got.domain.periodic[2]);
@@ -71,11 +75,19 @@ TEST(Wire, TermsArriveAsSent) {
   fluid.offered = wire::kKnownQuantities;
   fluid.fluid_density = 1000;
   fluid.domain.high[1] = 2;
+  fluid.rheology = {2, 0.5, 0.8};
+  fluid.has_gravity = true;
+  fluid.gravity[2] = -9.8;
   const FluidTerms back = wire::decode_fluid_terms(view(wire::encode(fluid)));
   EXPECT_EQ(back.time_step, 5e-3);
   EXPECT_EQ(back.offered, wire::kKnownQuantities);
   EXPECT_EQ(back.fluid_density, 1000);
   EXPECT_EQ(back.domain.high[1], 2);
+  EXPECT_EQ(back.rheology.yield_stress, 2);
+  EXPECT_EQ(back.rheology.consistency, 0.5);
+  EXPECT_EQ(back.rheology.index, 0.8);
+  EXPECT_TRUE(back.has_gravity);
+  EXPECT_EQ(back.gravity[2], -9.8);
 }
 
 TEST(Wire, MeetingArrivesAsSent) {
