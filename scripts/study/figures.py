@@ -1,0 +1,207 @@
+# SPDX-FileCopyrightText: Eccentra contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The paper's figures as our own results: points, charts, and what the paper says beside what we find."""
+import dataclasses
+import math
+
+from . import charts, ladders, levels, tables
+from .ladders import Point, larger
+
+SPHERICITY = {"cube": 0.85, "disk": 0.79}  # Table 1
+SIGNS = {1: "more", -1: "less", 0: "not told apart from", None: "not compared with"}
+
+
+@dataclasses.dataclass(frozen=True)
+class Plan:
+    """What a size of the study looks at."""
+    inclinations: tuple
+    velocities: tuple
+    shape_velocities: tuple
+    coarse_velocities: tuple
+    friction_velocities: tuple
+    rpms: tuple
+    friction_inclinations: tuple
+    estimates: tuple
+
+
+class Figure:
+    """One figure: points() to run, then series and words from the ladders' values."""
+
+    def __init__(self, number, title, says, x, make, find):
+        self.number, self.title, self.says, self.x, self.make, self.find = number, title, says, x, make, find
+
+
+def pairs(values, of, by, names=str):
+    """Sentences that compare neighbours: values {key: Value}, sorted within groups."""
+    told = []
+    for group in dict.fromkeys(of(k) for k in values):
+        keys = sorted((k for k in values if of(k) == group), key=by)
+        for a, b in zip(keys, keys[1:]):
+            told.append((group, a, b, larger(values[b], values[a])))
+    return told
+
+
+def count(told, wanted, what):
+    """How often a trend holds."""
+    judged = [t for t in told if t[3] is not None]
+    holds = [t for t in judged if t[3] == wanted]
+    against = [t for t in judged if t[3] == -wanted]
+    if not judged:
+        return f"{what}: nothing to compare."
+    verdict = "holds" if len(holds) == len(judged) else "does not hold" if not holds else "holds in part"
+    return f"{what}: {verdict} ({len(holds)} of {len(judged)} comparisons; {len(against)} the other way, " \
+           f"{len(judged) - len(holds) - len(against)} not told apart)."
+
+
+class Figures:
+    def __init__(self, plan, estimates, fine_file):
+        self.plan = plan
+        self.of = {body: {level.name: level for level in levels.levels_of(body, estimates[body], fine_file)} for body in ("cube", "disk")}
+        self.mu = {body: [self.of[body][f"S1 mu {estimates[body][n]:.2f}"] for n in plan.estimates] for body in ("cube", "disk")}
+        self.s1, self.s6 = self.of["cube"]["S1"], self.of["cube"]["S6"]
+        self.reference = {"cube": self.of["cube"]["C64"], "disk": self.of["disk"]["D48"]}
+
+    def sphere(self, body, level, inclination, velocity, rpm=50):
+        """A sphere whose rolling friction stands for a shape has the drag of that shape."""
+        return Point(level, inclination, velocity, rpm, SPHERICITY[body])
+
+    def levels_needed(self):
+        every = {self.s1, self.s6, *self.reference.values(), *self.mu["cube"], *self.mu["disk"]}
+        return every | {self.of["cube"][n] for n in ("C8", "C27")} | {self.of["disk"][n] for n in ("D7", "D19")}
+
+    def points(self, number):
+        """{series name: [(x, Point)]}."""
+        plan = self.plan
+        if number == 7:
+            return {f"{level.name}, {u} m/s": [(i, Point(level, i, u)) for i in plan.inclinations]
+                    for level in (self.s1, self.s6) for u in plan.velocities}
+        if number == 10:
+            return {name: [(u, Point(level, 80, u)) for u in plan.shape_velocities]
+                    for name, level in (("disk D48", self.reference["disk"]), ("cube C64", self.reference["cube"]), ("sphere S1", self.s1))}
+        if number == 11:
+            names = (("cube", "C8"), ("cube", "C27"), ("cube", "C64"), ("disk", "D7"), ("disk", "D19"), ("disk", "D48"))
+            return {name: [(u, Point(self.of[body][name], 80, u)) for u in plan.coarse_velocities] for body, name in names}
+        if number == 12:
+            found = {}
+            for body, cluster in (("cube", "C64"), ("disk", "D48")):
+                for u in plan.friction_velocities:
+                    found[f"{body}, {u} m/s"] = [(0.0, self.sphere(body, self.s1, 80, u))] + [
+                        (level.mu, self.sphere(body, level, 80, u)) for level in self.mu[body]]
+                    found[f"{cluster}, {u} m/s"] = [(math.nan, Point(self.reference[body], 80, u))]
+            return found
+        body = {13: "disk", 14: "cube"}[number]
+        u = plan.friction_velocities[-1]
+        chosen = [self.s1, self.mu[body][-1]]
+        found = {f"mu {level.mu:.2f}, {plan.rpms[len(plan.rpms) // 2]} rpm":
+                 [(i, self.sphere(body, level, i, u)) for i in plan.friction_inclinations] for level in chosen}
+        found |= {f"mu {level.mu:.2f}, 80 deg, turning": [(rpm, self.sphere(body, level, 80, u, rpm)) for rpm in plan.rpms]
+                  for level in chosen}
+        return found
+
+
+SAYS = {
+    7: "C rises with inclination and falls with velocity; S6 gives what S1 gives; deviation from Tomren's measurements below 25 % at 0.58 m/s.",
+    10: "C falls with velocity; disk >= cube >= sphere.",
+    11: "Fewer sub-spheres (C8, C27 for C64; D7, D19 for D48) give no growing deviation.",
+    12: "Spheres approach the cluster result as the rolling coefficient grows.",
+    13: "For disks C grows with mu_r at all inclinations; rotation of the pipe lowers it.",
+    14: "For cubes C grows with mu_r, less than for disks; rotation of the pipe lowers it.",
+}
+TITLES = {7: "concentration against inclination, S1 and S6", 10: "concentration against velocity by shape, 80 degrees",
+          11: "coarser clusters, 80 degrees", 12: "rolling coefficient against clusters, 80 degrees",
+          13: "effect of mu_shape, disk", 14: "effect of mu_shape, cube"}
+X = {7: "inclination [degrees]", 10: "velocity [m/s]", 11: "velocity [m/s]", 12: "mu_shape", 13: "inclination [degrees]",
+     14: "inclination [degrees]"}
+
+
+def finds(number, series, values):
+    """What we find, from the values alone: sentences. series: {name: [(x, Point)]}."""
+    keyed = {(name, x): values[p] for name, points in series.items() for x, p in points}
+    told = []
+    if number == 7:
+        at = {(p.level.name, p.inclination, p.velocity): values[p] for points in series.values() for _, p in points}
+        told.append(count(pairs(at, lambda k: (k[0], k[1]), lambda k: k[2]), -1, "C falls with velocity"))
+        told.append(count(pairs(at, lambda k: (k[0], k[2]), lambda k: k[1]), 1, "C rises with inclination"))
+        equal = [larger(at["S6", i, u], at["S1", i, u]) for (n, i, u) in at if n == "S1"]
+        judged = [e for e in equal if e is not None]
+        told.append(f"S6 and S1 are not told apart in {sum(e == 0 for e in judged)} of {len(judged)} points.")
+        told.append(vertical(at))
+    elif number == 10:
+        told.append(count(pairs(keyed, lambda k: k[0], lambda k: k[1]), -1, "C falls with velocity"))
+        order = {"sphere S1": 0, "cube C64": 1, "disk D48": 2}
+        told.append(count(pairs(keyed, lambda k: k[1], lambda k: order[k[0]]), 1, "disk > cube > sphere"))
+    elif number == 11:
+        for coarse, fine in (("C8", "C64"), ("C27", "C64"), ("D7", "D48"), ("D19", "D48")):
+            for (name, u), value in keyed.items():
+                if name == coarse:
+                    told.append(f"{coarse} at {u} m/s: {against(value, keyed[fine, u])} {fine}.")
+    elif number == 12:
+        for name, points in series.items():
+            if len(points) > 1:
+                cluster = values[series[{"cube": "C64", "disk": "D48"}[name.split(",")[0]] + "," + name.split(",")[1]][0][1]]
+                told.append(count([(0, a[0], b[0], larger(values[b[1]], values[a[1]])) for a, b in zip(points, points[1:])], 1,
+                                  f"{name}: C grows with mu_shape"))
+                told.append("Against the cluster: " + "; ".join(f"mu {x:.2f} {against(values[p], cluster)}" for x, p in points) + ".")
+        told.append("Above mu_s = 0.5 a sphere slides instead of rolling: more rolling friction changes nothing then (saturation).")
+    else:
+        names = list(series)
+        for none, some in ((names[0], names[1]), (names[2], names[3])):
+            for (x, a), (_, b) in zip(series[none], series[some]):
+                where = f"{x:g} rpm" if "turning" in none else f"{x:g} degrees"
+                told.append(f"With mu_shape at {where}: {against(values[b], values[a])} without.")
+        turned = [(0, a, b, larger(values[b[1]], values[a[1]])) for name in names[2:] for a, b in zip(series[name], series[name][1:])]
+        told.append(count(turned, -1, "Rotation lowers C"))
+    back = sorted({p.name() for points in series.values() for _, p in points if values[p].slides})
+    if back:
+        told.append(f"The solids slide back down the hole at {len(back)} points, which a periodic section lets go on for ever: " + "; ".join(back) + ".")
+    return " ".join(t for t in told if t)
+
+
+def against(a, b):
+    """How a compares with b, with figures where both are known."""
+    sign = larger(a, b)
+    if sign is None:
+        return "not compared with"
+    if a.bound and b.bound:
+        relation = {1: "carries less than", -1: "carries more than", 0: "carries what is not told apart from"}[sign]
+        return f"{relation} (flux of the top rung {tables.number(1e6 * a.rungs[-1][1], 2)} against {tables.number(1e6 * b.rungs[-1][1], 2)}e-6 m3/s)"
+    relation = {1: "more than", -1: "less than", 0: "not told apart from"}[sign]
+    return f"{relation} ({a.words()} against {b.words()})"
+
+
+def vertical(at):
+    """At 0 degrees the concentration is known: Qs / (A v_s), v_s = U/(1 - C) - slip, with the closures' terminal speed."""
+    known = {0.58: 0.01670, 0.72: 0.01173, 1.165: 0.00596}  # of spheres, rho_f 1000 kg/m3
+    found = [(u, value, known[u]) for (name, i, u), value in at.items() if name == "S1" and i == 0 and u in known and not value.bound]
+    if not found:
+        return ""
+    return "At 0 degrees, against the closed form of uniform flow: " + "; ".join(
+        f"{u} m/s {100 * v.value:.2f} % against {100 * k:.2f} %" for u, v, k in found) + "."
+
+
+def panel(number, series, values):
+    shown = []
+    for k, (name, points) in enumerate(series.items()):
+        if number in (13, 14) and "turning" in name:
+            continue
+        made = [charts.Point(x, 100 * values[p].value, 100 * values[p].error, bound=values[p].bound) for x, p in points if not math.isnan(x)]
+        colour = charts.COLOURS[k % len(charts.COLOURS)]
+        shown.append(charts.Series(name, made, colour, True))
+        for x, p in points:  # a cluster beside spheres of any coefficient: a level line
+            if math.isnan(x):
+                ends = [q for other in series.values() for q, _ in other if not math.isnan(q)]
+                level = 100 * values[p].value
+                shown[-1] = charts.Series(name + (" (lower bound)" if values[p].bound else ""),
+                                          [charts.Point(min(ends), level), charts.Point(max(ends), level)], colour, True, False, True)
+    return charts.Panel(f"Figure {number}: {TITLES[number]}", X[number], "C at the injected flux [%]", shown, floor=0)
+
+
+def flux_panel(number, series, values):
+    """The ladders themselves: where the injected flux is not reached, this is what there is."""
+    shown = []
+    for k, (name, points) in enumerate(series.items()):
+        for x, p in points:
+            rungs = [charts.Point(100 * c, 1e6 * flux, 1e6 * error) for c, flux, error in values[p].rungs]
+            shown.append(charts.Series(name if x == points[0][0] or math.isnan(x) else "", rungs, charts.COLOURS[k % len(charts.COLOURS)], True,
+                                       dashed=x != points[0][0]))
+    return charts.Panel(f"Figure {number}: flux carried by a filling", "solid concentration [%]", "solids flux [1e-6 m3/s]", shown)

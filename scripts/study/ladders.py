@@ -1,0 +1,147 @@
+# SPDX-FileCopyrightText: Eccentra contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Concentration in the annulus at a given solids flux: a ladder of fixed fillings, whose flux is measured, is inverted."""
+import dataclasses
+import math
+
+from . import levels, measures, section, tables
+
+POURED_ABOVE = 0.05  # of the volume: what has no room at random is poured across the hole first
+POURING = 0.4  # [s]
+ROOM = 3.0  # standard errors by which two values must differ to be told apart, squared sum
+
+
+@dataclasses.dataclass(frozen=True)
+class Size:
+    rungs: tuple
+    length: float
+    cells: str
+    seconds: float
+    seeds: int
+
+
+@dataclasses.dataclass(frozen=True)
+class Point:
+    """A condition: level of detail, inclination [deg], mean velocity [m/s], pipe's turns per minute; sphericity of a sphere that
+    stands for a shape."""
+    level: levels.Level
+    inclination: int
+    velocity: float
+    rpm: int = 50
+    sphericity: float = 1.0
+
+    def name(self):
+        return f"{self.level.name}, {self.inclination} deg, {self.velocity} m/s, {self.rpm} rpm"
+
+
+@dataclasses.dataclass
+class Value:
+    """Concentration at the injected flux. bound +1: the ladder's top carries less, so it is larger than that (value: the top);
+    then flux is that of the top. slides: solids move back down at some rung."""
+    value: float
+    error: float
+    bound: int
+    rungs: list
+    slides: bool
+    failed: str = ""
+
+    def words(self):
+        if self.failed:
+            return "failed"
+        text = f"> {100 * self.value:.0f} %" if self.bound else f"{100 * self.value:.2g} +- {100 * self.error:.1g} %"
+        return text + (" (slides back)" if self.slides else "")
+
+
+def value_of(rungs, failed=""):
+    """rungs: (concentration, flux, standard error of the flux), from the lowest."""
+    if not rungs:
+        return Value(math.nan, math.nan, 0, [], False, failed)
+    at, error = measures.crossing([(0.0, 0.0, 0.0), *rungs], section.INJECTED)
+    slides = any(flux < -2 * (0 if math.isnan(e) else e) and flux < -1e-3 * section.INJECTED for _, flux, e in rungs)
+    if at == "above":
+        return Value(rungs[-1][0], math.nan, 0 if failed else 1, rungs, slides, failed)
+    return Value(at, error, 0, rungs, slides, "")
+
+
+def larger(a, b):
+    """+1: a is larger than b, -1: smaller, 0: the errors do not tell them apart; None: one failed. Where neither ladder reaches the
+    injected flux, the one whose top rung carries less needs more solid."""
+    if a is None or b is None or a.failed or b.failed or math.isnan(a.value) or math.isnan(b.value):
+        return None
+    if a.bound and b.bound:
+        (_, x, ex), (_, y, ey) = a.rungs[-1], b.rungs[-1]
+        difference, spread = y - x, math.hypot(0 if math.isnan(ex) else ex, 0 if math.isnan(ey) else ey)
+    elif a.bound or b.bound:
+        return 1 if a.bound else -1
+    else:
+        difference, spread = a.value - b.value, math.hypot(a.error, b.error)
+    return 0 if abs(difference) <= ROOM * spread else (1 if difference > 0 else -1)
+
+
+class Ladders:
+    def __init__(self, store, build, size, critical):
+        """critical: {level name: critical step}."""
+        self.store, self.build, self.size, self.critical = store, build, size, critical
+        self.values = {}
+
+    def job(self, point, rung, seed):
+        words = {"inclination": point.inclination, "velocity": point.velocity, "rpm": point.rpm, "seconds": self.size.seconds,
+                 "length": self.size.length, "cells": self.size.cells, "count": section.bodies_at(rung, self.size.length), "seed": seed,
+                 "interval": section.steps_per_fluid_step(self.critical[point.level.name]), "snapshots": self.size.seconds,
+                 **section.level_words(point.level)}
+        if rung > POURED_ABOVE:
+            words["pouring"] = POURING
+        if point.sphericity != 1:
+            words["sphericity"] = point.sphericity
+        return section.section_job(self.build, f"{point.name()}, {100 * rung:g} %, seed {seed}", words, spheres=point.level.spheres)
+
+    def run(self, points):
+        """All ladders, a rung at a time: what carries the injected flux needs no higher rung. Returns failed runs as sentences."""
+        points = [p for p in dict.fromkeys(points) if p not in self.values]
+        climbing, rungs, failed, sentences = list(points), {p: [] for p in points}, {}, []
+        for rung in self.size.rungs:
+            seeds = section.SEEDS[: self.size.seeds]
+            jobs = {(p, s): self.job(p, rung, s) for p in climbing for s in seeds}
+            results = self.store.run_all(f"rung of {100 * rung:g} %", jobs.values())
+            for point in list(climbing):
+                every = [results[jobs[point, s].key()] for s in seeds]
+                good = [r for r in every if "failed" not in r]
+                if len(good) < len(every):
+                    failed[point] = next(r["failed"] for r in every if "failed" in r)
+                    sentences.append(f"{point.name()}, {100 * rung:g} %: {failed[point]}")
+                if not good:
+                    climbing.remove(point)
+                    continue
+                flux, error = measures.mean_and_error([r["mean"]["flux"][0] for r in good])
+                if len(good) == 1:
+                    error = good[0]["mean"]["flux"][1]
+                filled = measures.mean_and_error([r["mean"]["concentration"][0] for r in good])[0]
+                rungs[point].append((filled, flux, error))
+                if flux >= section.INJECTED:
+                    climbing.remove(point)
+        for point in points:
+            self.values[point] = value_of(rungs[point], failed.get(point, ""))
+        return sentences
+
+    def rows(self, points):
+        """For CSV: all that is known of some points."""
+        rows = []
+        for p in points:
+            v = self.values[p]
+            start = [p.level.name, p.inclination, p.velocity, p.rpm, p.level.mu, v.value, v.error, v.bound, int(v.slides), v.failed]
+            rows += [start + [c, flux, error] for c, flux, error in v.rungs] or [start + ["", "", ""]]
+        return rows
+
+
+HEADER = ["level", "inclination_deg", "velocity_m_per_s", "rpm", "mu_shape", "concentration_at_injected_flux", "standard_error",
+          "is_lower_bound", "slides_back", "failed", "rung_concentration", "rung_flux_m3_per_s", "rung_flux_standard_error"]
+
+
+def table(values, columns):
+    """values: {(row, column): Value}."""
+    rows = list(dict.fromkeys(r for r, _ in values))
+    return ["", *columns], [[str(r), *(values[r, c].words() if (r, c) in values else "" for c in columns)] for r in rows]
+
+
+def fluxes(value):
+    return ", ".join(f"{100 * c:.2g} %: {tables.number(1e6 * flux, 2)}" for c, flux, _ in value.rungs)

@@ -1,0 +1,279 @@
+# SPDX-FileCopyrightText: Eccentra contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Levels of detail of a body against the finest one: deviation beside time, in dry scenes and in the annulus."""
+import dataclasses
+import math
+
+from . import charts, dry, levels, measures, section, tables, timing
+
+PERCENT = 5.0  # the accuracy that the plain words ask for
+# What a point of the annulus is judged by: solids move at 0 and 40 degrees and form a bed at rest at 80.
+JUDGED_BY = {0: "flux", 40: "flux", 80: "height"}
+SECTION_RESULTS = {"flux": ("solids flux at 5 %", "1e-6 m3/s", 1e6), "height": ("height of the solids' centre", "mm", 1e3),
+                   "gradient": ("pressure gradient", "Pa/m", 1.0)}
+CONCENTRATION = 0.05
+RESTITUTION_DRY, RESTITUTION_SECTION = 0.5, 0.9  # of the scenes
+
+
+@dataclasses.dataclass(frozen=True)
+class Size:
+    """How large a study is. section_levels: names, or mean and largest for the spheres with that mu_shape; empty: all.
+    length, cells, seconds (by inclination) and points (inclination, velocity) are those of the annulus."""
+    bodies: tuple
+    few_bodies: bool
+    seeds: int
+    length: float
+    cells: str
+    seconds: dict
+    points: tuple
+    section_levels: tuple
+    methods: object
+
+
+def names_of(build, body):
+    return [level.name for level in levels.levels_of(body, levels.eccentricities(build, body), "")]
+
+
+@dataclasses.dataclass
+class Row:
+    level: levels.Level
+    value: float
+    error: float
+    runs: int
+    cpu: float
+    wall: float
+    parts: dict
+    step: float
+    critical: dict
+    failed: str = ""
+    deviation: float = math.nan
+    deviation_error: float = math.nan
+
+    def unsure(self):
+        """The deviation as it can be told: not less than its standard error."""
+        sizes = [abs(self.deviation), self.deviation_error]
+        return max(s for s in sizes if not math.isnan(s)) if any(not math.isnan(s) for s in sizes) else math.nan
+
+
+@dataclasses.dataclass
+class Group:
+    """All levels of one body in one scene, by one result; the last row is the reference."""
+    scene: str
+    body: str
+    title: str
+    unit: str
+    rows: list
+    judged: bool
+
+    def compare(self):
+        reference = self.rows[-1]
+        for row in self.rows[:-1]:
+            row.deviation, row.deviation_error = measures.deviation(row.value, row.error, reference.value, reference.error)
+
+    def candidates(self):
+        return [row for row in self.rows[:-1] if not math.isnan(row.deviation) and row.unsure() > 0]
+
+    def front(self):
+        """Rows that no other row beats in time and deviation, and the knee among them (or None)."""
+        rows = self.candidates()
+        points = [(row.cpu, row.unsure()) for row in rows]
+        front = measures.pareto_front(points)
+        bend = measures.knee([points[i] for i in front])
+        return [rows[i] for i in front], None if bend is None else rows[front[bend]]
+
+    def plain_words(self):
+        """One paragraph, from the numbers alone."""
+        reference, rows = self.rows[-1], self.candidates()
+        if math.isnan(reference.value) or not rows:
+            return f"{self.title}, {self.body}: no comparison, as the reference or all other levels failed."
+        share = abs(reference.error / reference.value) * 100 if reference.value else math.nan
+        text = [f"{self.title} ({self.body}): the reference {reference.level.name} gives {tables.number(reference.value)} +- "
+                f"{tables.number(reference.error, 2)} {self.unit} in {tables.number(reference.cpu)} s."]
+        near = sorted((row for row in rows if abs(row.deviation) * 100 <= PERCENT), key=lambda row: row.cpu)
+        if near:
+            best = near[0]
+            ratio = reference.cpu / best.cpu
+            text.append(f"Within {PERCENT:g} % of it, the cheapest is {best.level.name} ({best.deviation:+.1%} +- "
+                        f"{best.deviation_error:.1%}); it costs {tables.number(ratio, 2)} times less.")
+            if best.deviation_error * 100 > PERCENT:
+                text.append("Its standard error is larger than that: more seeds are needed to be sure.")
+        else:
+            best = min(rows, key=lambda row: abs(row.deviation))
+            text.append(f"No other level is within {PERCENT:g} % of it; the nearest is {best.level.name} ({best.deviation:+.1%} +- "
+                        f"{best.deviation_error:.1%}), at {tables.number(best.cpu / reference.cpu, 2)} of the time.")
+        plain = next((row for row in rows if row.level.kind == "sphere"), None)
+        if plain and plain is not best:
+            text.append(f"The plain sphere is off by {plain.deviation:+.0%} at {tables.number(plain.cpu / reference.cpu, 2)} of the time.")
+        front, bend = self.front()
+        if bend:
+            text.append(f"The knee of the Pareto front is {bend.level.name}: beyond it time buys little.")
+        if share > PERCENT:
+            text.append(f"The reference itself is known to {share:.0f} % only.")
+        return " ".join(text)
+
+    def panel(self):
+        front, bend = self.front()
+        reference = self.rows[-1]
+        colour = {"sphere": 7, "friction": 4, "eccentric": 3, "cluster": 0}
+        names = {"sphere": "sphere", "friction": "sphere, mu_shape", "eccentric": "sphere, eccentric", "cluster": "clusters"}
+        series = [charts.Series("", [charts.Point(row.cpu, 100 * row.unsure()) for row in front], "#000000", True, False, True)]
+        for kind in names:
+            points = [charts.Point(row.cpu, 100 * row.unsure(), 100 * row.deviation_error, row.level.name.replace("S1 mu", "mu")
+                                   .replace("S1 eccentric", "eccentric"), row is bend)
+                      for row in self.candidates() if row.level.kind == kind]
+            series.append(charts.Series("", points, charts.COLOURS[colour[kind]]))
+        band = 100 * abs(reference.error / reference.value) if reference.value and not math.isnan(reference.error) else 0
+        return charts.Panel(f"{self.title}", f"CPU seconds of a run ({reference.level.name}: {tables.number(reference.cpu)})",
+                            f"deviation from {reference.level.name} [%]", series, True, True,
+                            (band, f"noise of {reference.level.name}") if band else (), False)
+
+
+class Study:
+    def __init__(self, store, build, size, bodies, scenes, names, seeds, output):
+        self.store, self.build, self.size, self.output = store, build, size, output
+        self.bodies, self.scenes, self.names, self.seeds = bodies, scenes, names, seeds
+        self.groups, self.failures = [], []
+
+    def wanted(self, body):
+        """Levels of a body in dry scenes, and those in the annulus; the reference last in both."""
+        fine = self.output / "disk80.clump"
+        levels.fine_disk(fine)
+        estimates = levels.eccentricities(self.build, body)
+        everything = levels.levels_of(body, estimates, fine)
+        chosen = [one for one in everything[:-1] if not self.names or one.name in self.names] + everything[-1:]
+        names = {f"S1 mu {estimates[n]:.2f}" if n in estimates else n if not n.startswith("eccentric") else "S1 eccentric"
+                 for n in self.size.section_levels}
+        return chosen, [one for one in chosen if not self.size.section_levels or one.name in names]
+
+    def run(self):
+        """Runs what is not there yet; returns what failed, as sentences."""
+        plan = {body: self.wanted(body) for body in self.bodies}
+        step_jobs = {(level.name, e): levels.step_job(self.build, level, e) for both in plan.values() for one in both for level in one
+                     for e in (RESTITUTION_DRY, RESTITUTION_SECTION)}
+        found = self.store.run_all("time steps", step_jobs.values())
+        self.critical = {key: found[job.key()] for key, job in step_jobs.items()}
+        for (name, _), result in self.critical.items():
+            if "failed" in result:
+                return [f"the time step of {name}: {result['failed']}"]
+        jobs = {}
+        for body, (dry_levels, wet_levels) in plan.items():
+            for scene in dry.SCENES:
+                for level in dry_levels if scene in self.scenes else ():
+                    for seed in dry.SEEDS[: self.seeds]:
+                        jobs[body, scene, level.name, seed] = self.dry(scene, level, seed)
+            for point in self.size.points if "section" in self.scenes else ():
+                for level in wet_levels:
+                    for seed in section.SEEDS[: self.seeds]:
+                        jobs[body, point, level.name, seed] = self.wet(body, point, level, seed)
+        results = {}
+        for title, wet in (("dry scenes", False), ("annulus", True)):  # the cheap ones first: an interrupted study shows them
+            results |= self.store.run_all(title, [job for (_, place, _, _), job in jobs.items() if (place not in dry.SCENES) == wet])
+        of = {key: results[job.key()] for key, job in jobs.items()}
+        for body, (dry_levels, wet_levels) in plan.items():
+            for scene, (what, unit, *_) in dry.SCENES.items():
+                if scene in self.scenes:
+                    self.group(scene, body, what, unit, dry_levels, of, scene, lambda r: r["value"], RESTITUTION_DRY, True)
+            for point in self.size.points if "section" in self.scenes else ():
+                for quantity, (what, unit, scale) in SECTION_RESULTS.items():
+                    title = f"annulus {point[0]} deg, {point[1]} m/s: {what}"
+                    self.group(f"section {point[0]} {point[1]} {quantity}", body, title, unit, wet_levels, of, point,
+                               lambda r, q=quantity, s=scale: r["mean"][q][0] * s, RESTITUTION_SECTION, JUDGED_BY[point[0]] == quantity)
+        return self.failures
+
+    def dry(self, scene, level, seed):
+        bodies = dry.SCENES[scene][4 if self.size.few_bodies else 3]
+        step, _ = levels.dividing_step(dry.FRAME, self.critical[level.name, RESTITUTION_DRY]["critical"])
+        return dry.dry_job(self.build, scene, level, seed, bodies, step)
+
+    def wet(self, body, point, level, seed):
+        inclination, velocity = point
+        words = {"inclination": inclination, "velocity": velocity, "seconds": self.size.seconds[inclination], "length": self.size.length,
+                 "cells": self.size.cells, "count": section.bodies_at(CONCENTRATION, self.size.length), "seed": seed,
+                 "interval": section.steps_per_fluid_step(self.critical[level.name, RESTITUTION_SECTION]["critical"]),
+                 **section.level_words(level)}
+        if level.kind in ("friction", "eccentric"):
+            words["sphericity"] = {"cube": 0.85, "disk": 0.79}[body]  # of the shape they stand for, Table 1 of the paper
+        return section.section_job(self.build, f"annulus {inclination} deg {velocity} m/s {level.name} seed {seed}", words,
+                                   spheres=level.spheres)
+
+    def group(self, scene, body, title, unit, chosen, results, place, value_of, restitution, judged):
+        rows = []
+        for level in chosen:
+            every = [r for (b, p, name, _), r in results.items() if (b, p, name) == (body, place, level.name)]
+            good = [r for r in every if "failed" not in r]
+            failed = next((r["failed"] for r in every if "failed" in r), "")
+            if failed:
+                self.failures.append(f"{title.split(':')[0]}, {level.name}: {failed}")
+            value, error = measures.mean_and_error([value_of(r) for r in good])
+            mean = lambda of: measures.mean_and_error([of(r) for r in good])[0]
+            critical = self.critical[level.name, restitution]
+            period = dry.FRAME if place in dry.SCENES else section.FLUID_STEP
+            rows.append(Row(level, value, error, len(good), mean(lambda r: r["cpu"]), mean(lambda r: r["wall"]),
+                            {part: mean(lambda r, part=part: r["parts"][part]) for part in timing.PARTS},
+                            levels.dividing_step(period, critical["critical"])[0], critical, failed))
+        group = Group(scene, body, title, unit, rows, judged)
+        group.compare()
+        self.groups.append(group)
+
+    def write(self):
+        """Table, CSV and charts; returns paragraphs of the page."""
+        header = ["level", "result", "+-", "deviation %", "+-", "CPU s", "contact", "integr.", "neighb.", "fluid", "link", "other", "step 1e-5 s"]
+        lines, cells, page = [], [], ["## Levels of detail\n"]
+        for group in self.groups:
+            table = [[row.level.name, row.value, row.error, 100 * row.deviation, 100 * row.deviation_error, row.cpu,
+                      *(row.parts[part] for part in timing.PARTS), row.step * 1e5] for row in group.rows]
+            words = group.plain_words()
+            if group.judged:
+                lines += [f"{group.title} [{group.unit}], {group.body}: {min(row.runs for row in group.rows)} seeds or more", "",
+                          tables.text(header, table), words, ""]
+                page += [words + "\n"]
+            for row in group.rows:
+                cells.append([group.scene, group.body, group.title, group.unit, row.level.name, row.value, row.error, row.runs, row.deviation,
+                              row.deviation_error, row.cpu, row.wall, *(row.parts[part] for part in timing.PARTS), row.step,
+                              row.critical["critical"], row.critical["contacts"], row.failed])
+        steps = []
+        for (name, restitution), result in self.critical.items():
+            steps.append([name, restitution, result["critical"], result["contacts"], levels.SAFETY * result["critical"]])
+        step_header = ["level", "restitution", "critical step s", "contacts then", f"{levels.SAFETY} of it s"]
+        lines += ["Time steps: the largest that divides a frame (dry) or a fluid step (annulus) and is at most "
+                  f"{levels.SAFETY} of the smallest critical step", "that fix timestep/limit met while bodies fell and came to rest", "",
+                  tables.text(step_header, steps)]
+        text = "\n".join(lines)
+        (self.output / "levels.txt").write_text(text)
+        print(text)
+        tables.write_csv(self.output / "levels.csv", ["scene", "body", "result", "unit", "level", "mean", "standard_error", "runs", "deviation",
+                         "deviation_error", "cpu_s", "wall_s", *(f"{part}_s" for part in timing.PARTS), "step_s", "critical_step_s",
+                         "contacts_at_critical", "failed"], cells)
+        for body in self.bodies:
+            panels = [group.panel() for group in self.groups if group.body == body and group.judged and group.candidates()]
+            if panels:
+                charts.write(self.output / f"levels-{body}.svg", f"What a level of detail of the {body} costs and what it gets wrong "
+                             "(dashed: Pareto front; ring: its knee)", panels)
+                page.insert(1, f"![levels of the {body}](levels-{body}.svg)\n")
+        page += self.summary()
+        return page
+
+    def summary(self):
+        """One table: deviation of each level in each scene."""
+        page = []
+        for body in self.bodies:
+            judged = [group for group in self.groups if group.body == body and group.judged]
+            names = list(dict.fromkeys(row.level.name for group in judged for row in group.rows))
+            rows = []
+            for name in names:
+                row = [name]
+                for group in judged:
+                    of = next((r for r in group.rows if r.level.name == name), None)
+                    if of is None:
+                        row.append("")
+                    elif of is group.rows[-1]:
+                        row.append(f"{tables.number(of.value)} +- {tables.number(of.error, 2)} {group.unit}; {tables.number(of.cpu, 2)} s")
+                    elif math.isnan(of.deviation):
+                        row.append("failed")
+                    else:
+                        row.append(f"{of.deviation:+.0%} +- {of.deviation_error:.0%}; {tables.number(of.cpu, 2)} s")
+                rows.append(row)
+            if rows:
+                page.append(f"Deviation from the finest {body}, with its standard error over seeds, and CPU seconds of a run:\n")
+                page.append(tables.markdown(["level", *(group.title for group in judged)], rows))
+        return page

@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: Eccentra contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the methods of the coupling cost and change: mesh, fluid step, DEM step, void fraction, drag in the fluid, rheology."""
+import dataclasses
+import math
+
+from . import charts, measures, section, tables
+
+LENGTH, CONCENTRATION, VELOCITY = 0.15, 0.05, 0.58
+DEM_STEP = 5e-3 / 64
+BASE = {"velocity": VELOCITY, "length": LENGTH, "cells": "8 32 10", "fluid_step": 5e-3, "interval": 64}
+RESULTS = {"gradient": ("pressure gradient", "Pa/m", 1.0), "flux": ("solids flux", "1e-6 m3/s", 1e6), "height": ("solids' centre", "mm", 1e3)}
+
+
+@dataclasses.dataclass(frozen=True)
+class Size:
+    inclinations: tuple
+    seeds: int
+    seconds: float
+    finest: bool
+
+
+def _fluid_steps(momentum):
+    return {f"{step * 1e3:g} ms{'' if momentum == 'semiImplicit' else ' explicit'}":
+            {"fluid_step": step, "interval": max(1, round(step / DEM_STEP)), "momentum": momentum, "report": max(1, round(0.1 / step))}
+            for step in (0.02, 0.01, 0.005, 0.002, 0.001)}
+
+
+def families(finest):
+    """{family: (what, {name: options that differ from BASE}, name of the reference)}."""
+    meshes = ("4 16 5", "6 24 8", "8 32 10", "12 48 15") + (("16 64 20",) if finest else ())
+    explicit = _fluid_steps("explicit")
+    if not finest:
+        explicit = {name: explicit[name] for name in explicit if not name.startswith(("2 ", "1 "))}
+    dem = {f"{5e-3 / n * 1e6:.0f} us": {"interval": n} for n in (20, 32, 64, 128) + ((256,) if finest else ())}
+    viscosities = {f"{model} {most:g}": {"viscosity": f"{model} {most:g}", "tau0": 1}
+                   for model, mosts in (("capped", (1, 10, 100, 1000)), ("regularised", (10, 100, 1000))) for most in mosts}
+    return {
+        "mesh": ("cells (gap x around x along)", {m.replace(" ", "x"): {"cells": m} for m in meshes}, meshes[-1].replace(" ", "x")),
+        "fluid step": ("fluid step = coupling interval, drag semi-implicit or explicit in the fluid",
+                       _fluid_steps("semiImplicit") | explicit, "1 ms"),
+        "DEM step": ("DEM step", dem, list(dem)[-1]),
+        "void fraction": ("void-fraction method", {w: {"void-fraction": w} for w in ("centre", "divided", "gaussian", "diffusion")}, "diffusion"),
+        "regularisation": ("largest viscosity [Pa s] at tau0 = 1 Pa, and the model", viscosities, "capped 1000"),
+    }
+
+
+class Study:
+    def __init__(self, store, build, size, output):
+        self.store, self.build, self.size, self.output = store, build, size.methods, output
+        self.rows, self.failures = [], []
+
+    def run(self):
+        jobs = {}
+        for inclination in self.size.inclinations:
+            for family, (_, variants, _) in families(self.size.finest).items():
+                for name, change in variants.items():
+                    for seed in section.SEEDS[: self.size.seeds]:
+                        words = {**BASE, "inclination": inclination, "seconds": self.size.seconds, "seed": seed,
+                                 "count": section.bodies_at(CONCENTRATION, LENGTH), **change}
+                        jobs[inclination, family, name, seed] = section.section_job(
+                            self.build, f"{family} {name}, {inclination} deg, seed {seed}", words)
+        found = self.store.run_all("methods", jobs.values())
+        for inclination in self.size.inclinations:
+            for family, (_, variants, reference) in families(self.size.finest).items():
+                self.family(inclination, family, variants, reference,
+                            {key[2:]: found[job.key()] for key, job in jobs.items() if key[:2] == (inclination, family)})
+        return self.failures
+
+    def family(self, inclination, family, variants, reference, results):
+        means = {}
+        for name in variants:
+            every = [r for (n, _), r in results.items() if n == name]
+            good = [r for r in every if "failed" not in r]
+            failed = next((r["failed"] for r in every if "failed" in r), "")
+            if failed:
+                self.failures.append(f"{family} {name}, {inclination} deg: {failed}")
+            values = {}
+            for quantity in RESULTS:
+                mean, error = measures.mean_and_error([r["mean"][quantity][0] for r in good])
+                if len(good) == 1:  # one seed: its error in time
+                    error = good[0]["mean"][quantity][1]
+                values[quantity] = (mean, error)
+            means[name] = (values, measures.mean_and_error([r["cpu"] for r in good])[0], failed)
+        for name, (values, cpu, failed) in means.items():
+            for quantity in RESULTS:
+                off, error = measures.deviation(*values[quantity], *means[reference][0][quantity])
+                self.rows.append({"inclination": inclination, "family": family, "name": name, "quantity": quantity,
+                                  "value": values[quantity], "deviation": (math.nan, math.nan) if name == reference else (off, error),
+                                  "reference": name == reference, "cpu": cpu, "failed": failed})
+
+    def of(self, inclination, family, quantity):
+        return [row for row in self.rows if (row["inclination"], row["family"], row["quantity"]) == (inclination, family, quantity)]
+
+    def write(self):
+        lines, page, panels = [], ["## Methods of the coupling\n", "![methods](methods.svg)\n"], []
+        header = ["method", "Pa/m", "+-", "off %", "+-", "centre mm", "off %", "CPU s", ""]
+        for inclination in self.size.inclinations:
+            for family, (what, variants, reference) in families(self.size.finest).items():
+                gradient, height = (self.of(inclination, family, q) for q in ("gradient", "height"))
+                table = [[g["name"], *g["value"], 100 * g["deviation"][0], 100 * g["deviation"][1], 1e3 * h["value"][0],
+                          100 * h["deviation"][0], g["cpu"], "reference" if g["reference"] else "failed" if g["failed"] else ""]
+                         for g, h in zip(gradient, height)]
+                title = f"{inclination} degrees, {VELOCITY} m/s: {what}"
+                lines += [title, "", tables.text(header, table)]
+                page += [f"{title}\n", tables.markdown(header, table)]
+                panels.append(self.panel(inclination, family, gradient, reference))
+        text = "\n".join(lines)
+        (self.output / "methods.txt").write_text(text)
+        print(text)
+        tables.write_csv(self.output / "methods.csv",
+                         ["inclination", "family", "method", "quantity", "mean_si", "standard_error", "deviation", "deviation_error", "cpu_s", "failed"],
+                         [[r["inclination"], r["family"], r["name"], r["quantity"], *r["value"], *r["deviation"], r["cpu"], r["failed"]]
+                          for r in self.rows])
+        charts.write(self.output / "methods.svg", "What the methods of the coupling cost and change "
+                     f"({', '.join(f'{i} degrees' for i in self.size.inclinations)}, {VELOCITY} m/s, 5 % solid)", panels)
+        return page
+
+    def panel(self, inclination, family, rows, reference):
+        kinds = {}
+        for row in rows:
+            off, error = row["deviation"]
+            if math.isnan(off):
+                continue
+            kind = "explicit" if "explicit" in row["name"] else row["name"].split(" ")[0] if family == "regularisation" else ""
+            shown = max(abs(off), error if not math.isnan(error) else 0)
+            kinds.setdefault(kind, []).append(charts.Point(row["cpu"], 100 * shown, 100 * error, row["name"].replace(" explicit", "")
+                                                           .replace(f"{kind} ", "") if kind else row["name"]))
+        series = [charts.Series(kind, sorted(points, key=lambda p: p.x), charts.COLOURS[k], family != "void fraction")
+                  for k, (kind, points) in enumerate(kinds.items())]
+        return charts.Panel(f"{family}, {inclination} degrees", "CPU seconds of a run", f"pressure gradient: off {reference} [%]", series,
+                            True, True)

@@ -1,0 +1,90 @@
+# SPDX-FileCopyrightText: Eccentra contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs of cases/tomren-section: the annulus of Tomren, Iyoho and Azar (1986), periodic along the hole."""
+import csv
+import math
+import shutil
+
+from . import runs, timing
+from .levels import ROOT, dividing_step, shape_key
+
+CASE = ROOT / "cases" / "tomren-section"
+AREA = math.pi * (0.0635**2 - 0.02413**2)  # of the annulus across the hole [m2]
+DIAMETER = 6.35e-3
+BODY_VOLUME = math.pi * DIAMETER**3 / 6
+INJECTED = 0.1512 / 2619  # the paper's injection as a volume flux [m3/s]
+FLUID_STEP = 5e-3
+# Of where the cuttings are at the start: primes, none that in.cuttings uses for something else.
+SEEDS = (49979687, 67867967, 86028121, 15485867, 32452867, 49979693, 67867979, 86028157, 15485917, 32452883)
+# Name of a quantity in annulusReport's summary.csv, with what turns it into SI units.
+QUANTITIES = {"flux": ("solid flux", 1e-6), "gradient": ("pressure gradient", 1.0), "height": ("height of the solid's centre", 1e-3),
+              "concentration": ("solid concentration", 1e-2), "bed": ("bed height (profile)", 1e-3)}
+
+
+def bodies_at(concentration, length):
+    """Bodies that fill a share of the section."""
+    return round(concentration * AREA * length / BODY_VOLUME)
+
+
+def level_words(level):
+    """Options of the case's run for a level of detail."""
+    if level.kind == "cluster":
+        return {"shape": level.shape}
+    if level.kind == "friction":
+        return {"mu_shape": level.mu}
+    if level.kind == "eccentric":
+        return {"eccentric": 1, "shape": level.shape}
+    return {}
+
+
+def steps_per_fluid_step(critical, fluid_step=FLUID_STEP):
+    return dividing_step(fluid_step, critical)[1]
+
+
+def read_summary(path):
+    """{quantity: (mean, standard error)} of annulusReport's summary.csv, SI units."""
+    with open(path, newline="") as rows:
+        found = {row["quantity"]: (float(row["mean"]), float(row["standard_error"])) for row in csv.DictReader(rows)}
+    return {name: tuple(v * scale for v in found[title]) for name, (title, scale) in QUANTITIES.items() if title in found}
+
+
+def estimate_of(words, spheres):
+    """CPU seconds that a run may take; rough, for the time left alone."""
+    cells = math.prod(int(n) for n in str(words.get("cells", "8 32 20")).split())
+    fluid_steps = float(words["seconds"]) / float(words.get("fluid_step", FLUID_STEP)) + 100
+    dem_steps = float(words["seconds"]) / float(words.get("fluid_step", FLUID_STEP)) * int(words["interval"])
+    return fluid_steps * cells * 2.2e-6 + dem_steps * int(words["count"]) * 2.5e-7 * (1 + 0.7 * (spheres > 1) + 0.03 * spheres) + 1
+
+
+def section_job(build, name, words, share=0.5, spheres=1, keep=None):
+    """A run with options of the case's `run` (without --); the result: means over the last `share` of it with their standard
+    errors in time, the end of the run, time and its parts. `keep`: name under which the case stays in the job's folder."""
+    files = [CASE / "in.cuttings", CASE.parent / "run-coupled", *sorted((CASE / "system").iterdir()), *sorted((CASE / "constant").iterdir())]
+    described = {key: shape_key(value) if key == "shape" else str(value) for key, value in words.items()}
+    inputs = {"what": "section", "case": runs.digest_of(*files), **described, "share": share, **({"keep": keep} if keep else {})}
+
+    def work(folder):
+        case = folder / (keep or "case")
+        shutil.rmtree(case, ignore_errors=True)
+        line = [CASE / "run", "--bin", build / "bin", "--output", case]
+        for key, value in words.items():
+            line += [f"--{key}", value]
+        status, cpu, wall = runs.command(line, folder, folder / "out.txt")
+        if status:
+            raise runs.RunFailed(runs.sentence_of(folder / "out.txt", status))
+        report = [build / "bin" / "annulusReport", case, "-o", folder, "--share", share, "--no-pictures"]
+        status, _, _ = runs.command(report, folder, folder / "report.txt")
+        if status:
+            raise runs.RunFailed(runs.sentence_of(folder / "report.txt", status))
+        with open(case / "postProcessing" / "eccentra" / "coupling.csv", newline="") as rows:
+            last = list(csv.DictReader(rows))[-1]
+        parts = timing.parts_of((case / "log.liggghts").read_text(errors="replace"))
+        parts["fluid"] += float(last["fluid_seconds"])
+        parts["link"] = float(last["exchange_seconds"]) + float(last["link_seconds"])
+        result = {"mean": read_summary(folder / "summary.csv"), "bodies": int(float(last["particles"])),
+                  "fastest": float(last["fastest_particle"]), "cpu": cpu, "wall": wall, "parts": timing.scaled(parts, cpu)}
+        if not keep:
+            shutil.rmtree(case)  # tens of MB; inputs and result stay
+        return result
+
+    return runs.Job(name, inputs, work, estimate_of(words, spheres))

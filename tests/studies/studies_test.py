@@ -1,0 +1,197 @@
+# SPDX-FileCopyrightText: Eccentra contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tests of scripts/study, scripts/accuracy-cost and scripts/paper."""
+import csv
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+BUILD = pathlib.Path(os.environ.get("ECCENTRA_BUILD", ROOT / "build"))
+sys.path.insert(0, str(ROOT / "scripts"))
+from study import charts, ladders, level_study, levels, loop_data, measures, runs, section, timing  # noqa: E402
+
+
+class Measures(unittest.TestCase):
+    def test_standard_error_of_a_mean(self):
+        mean, error = measures.mean_and_error([1.0, 2.0, 3.0, 4.0])
+        self.assertAlmostEqual(mean, 2.5)
+        self.assertAlmostEqual(error, math.sqrt(5 / 3) / 2)  # s^2 = sum (x - m)^2 / 3 = 5/3
+        self.assertEqual(measures.mean_and_error([7.0])[0], 7.0)
+        self.assertTrue(math.isnan(measures.mean_and_error([7.0])[1]))
+
+    def test_deviation_and_its_error(self):
+        off, error = measures.deviation(11.0, 0.3, 10.0, 0.4)
+        self.assertAlmostEqual(off, 0.1)
+        self.assertAlmostEqual(error, math.hypot(0.03, 11 * 0.4 / 100))
+        self.assertTrue(math.isnan(measures.deviation(1.0, 0.1, 0.0, 0.1)[0]))
+
+    def test_pareto_front(self):
+        points = [(1, 10), (2, 11), (3, 4), (3, 5), (5, 4), (9, 1)]  # beaten: 1 by 0, 3 and 4 by 2
+        self.assertEqual(measures.pareto_front(points), [0, 2, 5])
+        self.assertEqual(measures.pareto_front([]), [])
+
+    def test_knee(self):
+        # error = 1/cost is a straight line in logarithms: no knee; one point below it is the knee, one above is not.
+        self.assertIsNone(measures.knee([(1, 1), (10, 0.1), (100, 0.01)]))
+        self.assertEqual(measures.knee([(1, 1), (10, 0.02), (100, 0.01)]), 1)
+        self.assertIsNone(measures.knee([(1, 1), (10, 0.9), (100, 0.01)]))
+        self.assertIsNone(measures.knee([(1, 1), (10, 0.5)]))
+
+    def test_crossing_of_a_straight_ladder(self):
+        # flux = 4 c - 1, wanted 1: c = 0.5; the error of the flux by its slope.
+        at, error = measures.crossing([(0.25, 0.0, 0.1), (0.75, 2.0, 0.1)], 1.0)
+        self.assertAlmostEqual(at, 0.5)
+        self.assertAlmostEqual(error, math.hypot(0.05, 0.05) / 4)
+        self.assertEqual(measures.crossing([(0, 0, 0), (1, 0.5, 0)], 1.0)[0], "above")
+        self.assertEqual(measures.crossing([(0.1, 2, 0)], 1.0)[0], "below")
+
+
+class Ladders(unittest.TestCase):
+    def test_value_is_a_bound_where_the_top_carries_less(self):
+        wanted = section.INJECTED
+        reached = ladders.value_of([(0.1, wanted / 2, 0.0), (0.2, wanted * 1.5, 0.0)])
+        self.assertAlmostEqual(reached.value, 0.15)
+        bound = ladders.value_of([(0.1, -wanted, 0.0), (0.4, wanted / 2, 0.0)])
+        self.assertEqual((bound.value, bound.bound, bound.slides), (0.4, 1, True))
+        self.assertEqual(ladders.larger(bound, reached), 1)
+        self.assertEqual(ladders.larger(reached, bound), -1)
+
+    def test_of_two_bounds_the_one_that_carries_less_is_larger(self):
+        a = ladders.value_of([(0.4, 1e-6, 1e-8)])
+        b = ladders.value_of([(0.4, 2e-6, 1e-8)])
+        self.assertEqual(ladders.larger(a, b), 1)
+        self.assertEqual(ladders.larger(a, ladders.value_of([(0.4, 1.01e-6, 1e-8)])), 0)
+        self.assertIsNone(ladders.larger(a, ladders.value_of([], "it failed")))
+
+    def test_filling(self):
+        self.assertEqual(section.bodies_at(0.05, 0.3), 1213)  # 5 % of pi (0.0635^2 - 0.02413^2) 0.3 m3
+
+
+class Timing(unittest.TestCase):
+    LOG = ("Pair  time (%) = 2 (20)\nNeigh time (%) = 1 (1)\nOther time (%) = 0.5 (1)\nFix floor cluster/wall/gran time (%) = 3 (1)\n"
+           "Fix move nve/cluster time (%) = 1.5 (1)\nFix flow fluid/couple time (%) = 9 (1)\n")
+
+    def test_parts(self):
+        parts = timing.parts_of(self.LOG + self.LOG)
+        self.assertEqual(parts, {"contact": 10, "integration": 3, "neighbours": 2, "fluid": 0, "link": 0, "other": 1})
+        self.assertAlmostEqual(sum(timing.scaled(parts, 4.0).values()), 4.0)
+
+
+class Levels(unittest.TestCase):
+    def test_step_divides_the_period_and_keeps_the_margin(self):
+        step, parts = levels.dividing_step(5e-3, 1e-4)
+        self.assertEqual(parts, 167)
+        self.assertAlmostEqual(step * parts, 5e-3)
+        self.assertLessEqual(step, levels.SAFETY * 1e-4)
+
+    def test_fine_disk(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "disk.clump"
+            levels.fine_disk(file)
+            rows = [[float(w) for w in line.split()] for line in file.read_text().splitlines()]
+        self.assertEqual(len(rows), 80)
+        self.assertAlmostEqual(max(math.hypot(x, y) for x, y, _, _ in rows), 1.0)
+
+    def test_plain_words(self):
+        row = lambda name, value, cpu: level_study.Row(levels.Level(name, "cluster"), value, 0.01, 3, cpu, cpu, {}, 1e-5, {})
+        group = level_study.Group("scene", "cube", "slope", "degrees", [row("C8", 12.0, 1.0), row("C27", 10.2, 2.0), row("C64", 10.0, 8.0)], True)
+        group.compare()
+        words = group.plain_words()
+        self.assertIn("Within 5 % of it, the cheapest is C27 (+2.0%", words)
+        self.assertIn("it costs 4.0 times less", words)
+
+
+class Measured(unittest.TestCase):
+    HEAD = "Flow rate,Pipe rotation,Inclination,Concentration\n"
+
+    def test_effect(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "loop.csv"
+            file.write_text(self.HEAD + "100,0,90,0.4\n200,0,90,0.1\n100,80,90,0.2\n")
+            rows = loop_data.read(file)
+            self.assertEqual(loop_data.effect(rows, "Flow rate"), (1, 1, 0, 0.25))
+            self.assertEqual(loop_data.effect(rows, "Pipe rotation"), (1, 1, 0, 0.5))
+            file.write_text(self.HEAD + "100,none,90,0.4\n")
+            with self.assertRaisesRegex(ValueError, "line 2, column 'Pipe rotation': 'none' is no number"):
+                loop_data.read(file)
+
+
+class Charts(unittest.TestCase):
+    def test_a_chart_is_well_formed(self):
+        import xml.etree.ElementTree
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "c.svg"
+            points = [charts.Point(1, 2, 0.1, "a < b"), charts.Point(10, 0.5, ring=True), charts.Point(3, 0, math.nan), charts.Point(5, 4, bound=1)]
+            charts.write(file, "A & B", [charts.Panel("p", "x", "y", [charts.Series("s", points, line=True)], True, True, (1, "noise"))])
+            xml.etree.ElementTree.parse(file)
+
+
+def run(script, *words):
+    return subprocess.run([ROOT / "scripts" / script, "--build", BUILD, *words], capture_output=True, text=True)
+
+
+class Runs(unittest.TestCase):
+    def test_failed_runs_are_not_kept_and_finished_ones_are(self):
+        with tempfile.TemporaryDirectory() as folder:
+            store, calls = runs.Store(folder, 1), []
+
+            def work(job_folder):
+                calls.append(job_folder)
+                if len(calls) == 1:
+                    raise runs.RunFailed("it broke")
+                return {"value": 3}
+
+            job = runs.Job("a run", {"x": 1}, work)
+            said = []
+            self.assertEqual(store.run_all("t", [job], said.append), {job.key(): {"failed": "it broke"}})
+            for _ in range(2):
+                self.assertEqual(store.run_all("t", [job], said.append), {job.key(): {"value": 3}})
+            self.assertEqual(len(calls), 2)
+            self.assertIn("a run: FAILED: it broke", said[1])
+
+
+class Scripts(unittest.TestCase):
+    def test_a_tiny_study(self):
+        with tempfile.TemporaryDirectory() as folder:
+            words = ("--quick", "--parts", "levels", "--scenes", "heap", "--levels", "S1", "--seeds", "1", "--jobs", "1", "--output", folder)
+            first = run("accuracy-cost", *words)
+            self.assertEqual(first.returncode, 0, first.stderr + first.stdout)
+            with open(pathlib.Path(folder) / "levels.csv", newline="") as rows:
+                table = {row["level"]: row for row in csv.DictReader(rows)}
+            self.assertEqual(list(table), ["S1", "C125"])
+            for row in table.values():
+                parts = sum(float(row[f"{part}_s"]) for part in timing.PARTS)
+                self.assertAlmostEqual(parts / float(row["cpu_s"]), 1.0, places=6)
+                self.assertLessEqual(float(row["step_s"]), levels.SAFETY * float(row["critical_step_s"]) * (1 + 1e-9))
+            # Frictionless in rolling, spheres spread over the floor; cubes stand.
+            self.assertLess(float(table["S1"]["mean"]), 3.0)
+            self.assertGreater(float(table["C125"]["mean"]), 8.0)
+            self.assertIn("the reference C125 gives", (pathlib.Path(folder) / "results.md").read_text())
+            again = run("accuracy-cost", *words)
+            self.assertNotIn(" s of CPU |", again.stderr)  # nothing is repeated
+            self.assertEqual(again.returncode, 0)
+
+    def test_bad_words(self):
+        for script, words, says in (
+                ("accuracy-cost", ["--seeds", "0"], "--seeds is 0: give 1 to 10"),
+                ("accuracy-cost", ["--levels", "C9"], "--levels names 'C9': there are"),
+                ("accuracy-cost", ["--build", "/nowhere"], "there is no /nowhere/bin/eccentra-dem: build it with"),
+                ("accuracy-cost", ["--scenes", "ocean"], "invalid choice: 'ocean'"),
+                ("paper", ["--jobs", "0"], "--jobs is 0: give 1 or more"),
+                ("paper", ["--figures", "8"], "invalid choice: '8'"),
+                ("paper", ["--measured", "/nowhere.csv"], "--measured /nowhere.csv: "),
+                ("paper", ["--build", "/nowhere"], "there is no /nowhere/bin/eccentra-dem: build it with")):
+            with self.subTest(f"{script} {' '.join(words)}"):
+                said = run(script, *words)
+                self.assertNotEqual(said.returncode, 0)
+                self.assertIn(says, said.stderr)
+                self.assertNotIn("Traceback", said.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
