@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Malformed input ends with one clear sentence, soon, and without a crash. The cases are data: bad_input/*.yaml.
+// Malformed input ends with one clear sentence, soon, and without a crash. The cases are data: bad_input/*.yaml and bad_input/openfoam/*.yaml.
 #include "support/run_program.h"
 
 #include <gtest/gtest.h>
@@ -187,10 +187,13 @@ int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   try {
     std::vector<fs::path> files;
-    for (const auto& entry :
-         fs::directory_iterator(required_environment("ECCENTRA_SOURCE") + "/tests/interface/bad_input"))
-      if (entry.path().extension() == ".yaml")
-        files.push_back(entry.path());
+    std::istringstream folders(required_environment("ECCENTRA_BAD_INPUT"));
+    for (std::string folder; std::getline(folders, folder, ':');)
+      for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".yaml")
+          files.push_back(entry.path());
+    if (files.empty())
+      throw std::runtime_error("no *.yaml in the folders of ECCENTRA_BAD_INPUT");
     std::sort(files.begin(), files.end());
     for (const fs::path& file : files)
       register_file(file);
