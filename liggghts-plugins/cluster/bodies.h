@@ -3,6 +3,7 @@
 // Per-body data of clusters: one LIGGGHTS atom is one body (decision D1).
 #pragma once
 
+#include "cluster/insertion_overlap.h"
 #include "cluster/rigid_rotation.h"
 #include "cluster/surface_spheres.h"
 #include "shape/cluster_shape.h"
@@ -56,11 +57,15 @@ class FixBodies : public LAMMPS_NS::Fix {
 
   ShapeTable& shapes() { return shapes_; }
   const ShapeTable& shapes() const { return shapes_; }
+  /// What clusters under insertion must not touch.
+  InsertionOverlap& insertion() { return insertion_; }
+  const LAMMPS_NS::Atom& host_atoms() const { return *atom; }
 
   /// Shape id of local or ghost atom i; -1 is a plain sphere.
   int shape_id(int i) const { return static_cast<int>(data_[i][shape_column]); }
   /// Orientation (w x y z), body to world, of local or ghost atom i (ghosts: valid from pre_force on).
   double* quaternion(int i) { return data_[i]; }
+  const double* quaternion(int i) const { return data_[i]; }
   /// Angular momentum about the centre of mass of local atom i, world frame [kg m2/s]. Atom::omega follows from it.
   double* angular_momentum(int i) { return data_[i] + momentum_column; }
   /// Row-major matrix, body to world, of local or ghost atom i (valid from pre_force on; set_orientation keeps it).
@@ -112,6 +117,7 @@ class FixBodies : public LAMMPS_NS::Fix {
   void update_rotations(int first, int last);
 
   ShapeTable shapes_;
+  InsertionOverlap insertion_{*this};
   double** data_ = nullptr;                    ///< [nmax][columns]
   std::vector<std::array<double, 6>> resumed_; ///< force and torque from the restart file, while resuming_
   bool resuming_ = false;

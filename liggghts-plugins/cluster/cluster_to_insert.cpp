@@ -7,12 +7,19 @@
 
 #include "atom.h"
 #include "error.h"
+#include "math_extra_liggghts.h"
 
 #include <Eigen/Geometry>
+
+#include <algorithm>
 
 namespace eccentra::cluster {
 
 using namespace LAMMPS_NS;
+
+namespace {
+constexpr int orientations_per_place = 8;
+} // namespace
 
 void ClusterToInsert::set_orientation(const double* insertion) {
   const Eigen::Quaterniond outer(insertion[0], insertion[1], insertion[2], insertion[3]);
@@ -26,8 +33,23 @@ void ClusterToInsert::set_orientation(const double* insertion) {
 
 int ClusterToInsert::check_near_set_x_v_omega(double* x, double* v, double* omega, double* quat,
                                               RegionNeighborList<interpolate_no>& near) {
+  InsertionOverlap& insertion = FixBodies::require(lmp).insertion();
   set_orientation(quat);
-  return ParticleToInsert::check_near_set_x_v_omega(x, v, omega, quat, near);
+  PlacedBody body = insertion.body(shape_id, orientation_);
+  // Dense fills: a place that is too tight for one orientation may be wide enough for another.
+  for (int others = orientations ? orientations_per_place - 1 : 0; insertion.overlaps(body, x, near); --others) {
+    if (others == 0)
+      return 0;
+    MathExtraLiggghts::random_unit_quat(orientations, own_orientation);
+    set_orientation(quat);
+    body = insertion.body(shape_id, orientation_);
+  }
+  std::copy(x, x + 3, x_ins[0]);
+  std::copy(v, v + 3, v_ins);
+  std::copy(omega, omega + 3, omega_ins);
+  insertion.add(body, x);
+  near.insert(x, radius_ins[0]); // spheres of the same distribution keep off its bounding sphere
+  return 1;
 }
 
 int ClusterToInsert::set_x_v_omega(double* x, double* v, double* omega, double* quat) {

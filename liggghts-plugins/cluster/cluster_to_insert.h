@@ -6,16 +6,20 @@
 #include <mpi.h>
 
 #include "particleToInsert.h"
+#include "random_park.h"
 
 namespace eccentra::cluster {
 
-/// A particle to insert that becomes a body: stock code places it as a sphere of the bounding radius.
+/// A particle to insert that becomes a body: stock code draws its place as for a sphere of the bounding radius; overlap
+/// is tested with its sub-spheres.
 class ClusterToInsert : public LAMMPS_NS::ParticleToInsert {
  public:
   ClusterToInsert(LAMMPS_NS::LAMMPS* lmp, LAMMPS_NS::FixPropertyAtom* release)
       : ParticleToInsert(lmp, 1, release), shape_id(-1), own_orientation{1, 0, 0, 0} {}
 
-  int shape_id;              ///< in FixBodies::shapes()
+  int shape_id; ///< in FixBodies::shapes()
+  LAMMPS_NS::RanPark* orientations =
+      nullptr;               ///< draws other orientations where the first does not fit; null: none fits
   double own_orientation[4]; ///< drawn by the template; the `orientation` of fix insert comes on top
 
   int insert() override;

@@ -7,8 +7,10 @@
 #include "atom.h"
 #include "error.h"
 #include "fix.h"
+#include "fix_property_atom.h"
 #include "force.h"
 #include "lammps.h"
+#include "modify.h"
 #include "update.h"
 
 #include <mpi.h>
@@ -42,6 +44,8 @@ class FixNveCluster : public Fix {
   void init() override {
     reset_dt();
     bodies_ = &FixBodies::require(lmp);
+    streamed_ = static_cast<FixPropertyAtom*>(
+        modify->find_fix_property("release_fix_insert_stream", "property/atom", "vector", 5, 0, style, false));
   }
 
   void reset_dt() override {
@@ -72,6 +76,8 @@ class FixNveCluster : public Fix {
 
   void initial_integrate(int) override {
     bodies_->resume_forces();
+    if (streamed_)
+      follow_stream();
     for (int i = 0; i < atom->nlocal; ++i) {
       if (!(atom->mask[i] & groupbit))
         continue;
@@ -127,6 +133,18 @@ class FixNveCluster : public Fix {
     }
   }
 
+  // Fix insert/stream carries a body in until its release and sets v and omega itself, the last time in the step of its
+  // release: the angular momentum follows.
+  void follow_stream() {
+    constexpr int inserted = 3, released = 4; // columns, steps of the run
+    for (int i = 0; i < atom->nlocal; ++i) {
+      const double* stream = streamed_->array_atom[i];
+      if (stream[inserted] != 0 && static_cast<double>(update->ntimestep - 1) <= stream[released] &&
+          bodies_->shape_id(i) != FixBodies::plain_sphere)
+        bodies_->momentum_from_omega(i);
+    }
+  }
+
   void turn(int i) {
     const FreeRotation& rotation = bodies_->shapes().free_rotation(bodies_->shape_id(i));
     const double* momentum = bodies_->angular_momentum(i);
@@ -157,6 +175,7 @@ class FixNveCluster : public Fix {
   }
 
   FixBodies* bodies_ = nullptr;
+  FixPropertyAtom* streamed_ = nullptr; ///< what fix insert/stream keeps per atom, if there is one
   double dt_ = 0;
   double half_kick_ = 0;
 };

@@ -158,8 +158,10 @@ void FixTemplateCluster::fill(ParticleToInsert& particle) {
   cluster.mass_ins = density_ * volume_;
   for (int k = 0; k < 3; ++k)
     cluster.x_ins[0][k] = cluster.v_ins[k] = cluster.omega_ins[k] = 0;
-  if (random_orientation_)
-    MathExtraLiggghts::random_unit_quat(random_insertion, cluster.own_orientation);
+  if (!random_orientation_)
+    return;
+  cluster.orientations = random_insertion;
+  MathExtraLiggghts::random_unit_quat(random_insertion, cluster.own_orientation);
 }
 
 void FixTemplateCluster::randomize_single() {
@@ -178,7 +180,9 @@ void FixTemplateCluster::init_ptilist(int count, bool, FixPropertyAtom* release)
     pti_list[i] = new ClusterToInsert(lmp, release);
 }
 
+// Stock calls this once per round of insertion, before it asks for overlaps.
 void FixTemplateCluster::randomize_ptilist(int count, int distribution_groupbit, int distribution_order) {
+  FixBodies::require(lmp).insertion().begin();
   for (int i = 0; i < count; ++i) {
     fill(*pti_list[i]);
     pti_list[i]->groupbit = groupbit | distribution_groupbit;
