@@ -68,6 +68,10 @@ class Bed {
   /// Largest speed after `steps` more at this step [m/s].
   double speed_after(double step, int steps) {
     session_.script("timestep " + std::to_string(step * 1e6) + "e-6\nrun " + std::to_string(steps));
+    return speed();
+  }
+  /// Largest speed now [m/s].
+  double speed() {
     double fastest = 0;
     for (int i = 0; i < session_.atom().nlocal; ++i) {
       const double* v = session_.atom().v[i];
@@ -88,7 +92,9 @@ void expect_heating_within_a_factor(const std::string& shape, const std::string&
   EXPECT_EQ(bed.bodies(), kBodies);
   const double critical = bed.critical_step();
   ASSERT_TRUE(std::isfinite(critical));
-  bed.speed_after(0.8 * critical, 8000); // dies down faster than at the small step
+  // Dies down faster than at the small step; a disk may rock for a while.
+  for (int burst = 0; burst < 10 && (burst < 2 || bed.speed() > 3e-4); ++burst)
+    bed.speed_after(0.8 * critical, 4000);
   const double quiet = bed.speed_after(0.95 * critical, 4000);
   // A bed that heats soon flies apart: stop as soon as it shows.
   const double heating = std::max(10 * quiet, 1e-5);
