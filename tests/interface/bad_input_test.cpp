@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Malformed input ends with one clear sentence, soon, and without a crash. The cases are data: bad_input/*.yaml and bad_input/openfoam/*.yaml.
+// Malformed input ends with one clear sentence, soon, and without a crash. The cases are data: bad_input/*.yaml and
+// bad_input/openfoam/*.yaml.
 #include "support/run_program.h"
 
 #include <gtest/gtest.h>
