@@ -8,6 +8,7 @@
 #include "atom.h"
 #include "error.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "update.h"
 
 #include <cstdint>
@@ -47,7 +48,7 @@ FixSphereOrientation* FixSphereOrientation::find(LAMMPS_NS::LAMMPS* lmp) {
 FixSphereOrientation* FixSphereOrientation::make(LAMMPS_NS::LAMMPS* lmp, const std::vector<std::string>& shape_words,
                                                  long seed) {
   if (!lmp->modify->find_fix_id(kProperty)) {
-    std::string words[] = {kProperty, "all", "property/atom", kProperty, "vector", "yes", "yes", "no", "0", "0",
+    std::string words[] = {kProperty, "all", "property/atom", kProperty, "vector", "yes", "no", "no", "0", "0",
                            "0",       "0"};
     constexpr int n = sizeof(words) / sizeof(words[0]);
     char* arg[n];
@@ -86,24 +87,23 @@ void FixSphereOrientation::init() {
                "the script");
 }
 
-void FixSphereOrientation::setup_pre_force(int vflag) {
-  pre_force(vflag);
+void FixSphereOrientation::setup_pre_force(int) {
+  orient_new_spheres();
 }
 
 void FixSphereOrientation::post_integrate() {
   const double dt = update->dt;
   for (int i = 0; i < atom->nlocal; ++i) {
     const Eigen::Map<const Eigen::Vector3d> omega(atom->omega[i]);
-    const double squared = omega.squaredNorm();
-    double* const q = property_->array_atom[i];
-    if (squared == 0.0 || q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] == 0.0)
-      continue;
     // sin(x)/x and cos(x) by series: an angle per step beyond 0.2 rad would be no resolved motion anyway.
-    const double half = 0.25 * dt * dt * squared;
+    const double half = 0.25 * dt * dt * omega.squaredNorm();
     const double sine = 0.5 * dt * (1.0 - half / 6.0 * (1.0 - half / 20.0));
     const double cosine = 1.0 - 0.5 * half * (1.0 - half / 12.0);
     const Eigen::Quaterniond turn(cosine, sine * omega[0], sine * omega[1], sine * omega[2]);
-    const Eigen::Quaterniond turned = (turn * orientation(i)).normalized();
+    double* const q = property_->array_atom[i];
+    Eigen::Quaterniond turned = turn * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+    // What a step adds to |q|^2 - 1 is round-off (or zero stays zero): one Newton step for 1/|q| takes it out.
+    turned.coeffs() *= 1.5 - 0.5 * turned.squaredNorm();
     q[0] = turned.w();
     q[1] = turned.x();
     q[2] = turned.y();
@@ -125,8 +125,8 @@ void FixSphereOrientation::orient_new_spheres() {
 }
 
 void FixSphereOrientation::pre_force(int) {
-  orient_new_spheres();
-  property_->do_forward_comm();
+  if (neighbor->ago == 0) // insertion happens where lists are rebuilt
+    orient_new_spheres();
 }
 
 } // namespace eccentra::rolling

@@ -19,8 +19,8 @@
 
 namespace eccentra::rolling {
 
-/// Orientations are the per-atom property `eccentricOrientation` (w x y z, body to world): it migrates, restarts,
-/// reaches ghosts and can be dumped as f_eccentricOrientation[1..4]. A sphere that has none yet gets one at random,
+/// Orientations are the per-atom property `eccentricOrientation` (w x y z, body to world): it migrates, restarts and
+/// can be dumped as f_eccentricOrientation[1..4]. A sphere that has none yet gets one at random,
 /// which depends on its tag and the seed alone.
 class FixSphereOrientation : public LAMMPS_NS::Fix {
  public:
@@ -30,12 +30,9 @@ class FixSphereOrientation : public LAMMPS_NS::Fix {
   /// The scene's instance, made if need be, with this shape (words as particletemplate/cluster takes them) and seed.
   static FixSphereOrientation* make(LAMMPS_NS::LAMMPS* lmp, const std::vector<std::string>& shape_words, long seed);
 
+  /// Orientation (w x y z, body to world) of an atom of this rank, valid from pre_force on.
+  const double* orientation(int i) const { return property_->array_atom[i]; }
   const SupportTable& shape() const { return *shape_; }
-  /// Orientation of local or ghost atom i, valid from pre_force on.
-  Eigen::Quaterniond orientation(int i) const {
-    const double* q = property_->array_atom[i];
-    return {q[0], q[1], q[2], q[3]};
-  }
 
   int setmask() override;
   /// Stops with a sentence where no model has made this fix.

@@ -10,13 +10,16 @@ ROLLING_MODEL(ROLLING_ECCENTRIC, eccentric, 21)
 #include "contact_models.h"
 
 #include "rolling/contact_words.h"
+#include "rolling/eccentric_batch.h"
 #include "rolling/fix_sphere_orientation.h"
 #include "rolling/wall_spin.h"
 
 #include "rolling_model_base.h"
 
+#include "atom.h"
 #include "error.h"
 #include "force.h"
+#include "pair_gran.h"
 
 namespace LIGGGHTS {
 namespace ContactModels {
@@ -58,40 +61,74 @@ template <> class RollingModel<ROLLING_ECCENTRIC> : public RollingModelBase {
           "rolling_friction eccentric needs a shape: add, for example, 'shape cube 64' to the pair_style line (again "
           "after read_restart)");
     spheres_ = FixSphereOrientation::make(lmp, shape_words_, static_cast<long>(seed_));
+    pair_ = static_cast<LAMMPS_NS::PairGran*>(force->pair_match("gran", 0));
   }
 
   void surfacesIntersect(SurfacesIntersectData& contact, ForceData& on_i, ForceData& on_j) {
-    const Eigen::Vector3d normal(contact.en[0], contact.en[1], contact.en[2]);
-    using Spin = Eigen::Map<const Eigen::Vector3d>;
-    const Eigen::Vector3d spin_i = contact.is_wall
-                                       ? Eigen::Vector3d(Spin(contact.omega_i) - wall_spin_.at(contact.mesh, contact.j))
-                                       : Eigen::Vector3d(Spin(contact.omega_i));
-    add(contact, contact.i, contact.radi, normal, spin_i, on_i);
-    if (!contact.is_wall)
-      add(contact, contact.j, contact.radj, -normal, Spin(contact.omega_j), on_j);
+    if (contact.is_wall) {
+      const Eigen::Vector3d wall_spin = wall_spin_.at(contact.mesh, contact.j);
+      const double spin[3] = {contact.omega_i[0] - wall_spin[0], contact.omega_i[1] - wall_spin[1],
+                              contact.omega_i[2] - wall_spin[2]};
+      add_now(contact, contact.i, contact.radi, contact.en, spin, on_i);
+      return;
+    }
+    // A ghost's torque is its owner's affair.
+    const bool both = contact.j < atom->nlocal || force->newton_pair;
+    const double on_partner[3] = {-contact.en[0], -contact.en[1], -contact.en[2]};
+    if (torques_are_read_) {
+      add_now(contact, contact.i, contact.radi, contact.en, contact.omega_i, on_i);
+      if (both)
+        add_now(contact, contact.j, contact.radj, on_partner, contact.omega_j, on_j);
+      return;
+    }
+    if (!contact.computeflag)
+      return;
+    add_later(contact, contact.i, contact.radi, contact.en, contact.omega_i);
+    if (both)
+      add_later(contact, contact.j, contact.radj, on_partner, contact.omega_j);
   }
 
+  void beginPass(SurfacesIntersectData&, ForceData&, ForceData&) {
+    torques_are_read_ = pair_->cpl() || pair_->storeContactForces() || pair_->storeContactForcesStress();
+  }
+
+  void endPass(SurfacesIntersectData&, ForceData&, ForceData&) { evaluate(); }
+
   void surfacesClose(SurfacesCloseData&, ForceData&, ForceData&) {}
-  void beginPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
-  void endPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
 
  private:
   /// Torque on one particle; `outward` points from the partner to it, the direction of the normal force on it.
-  void add(const SurfacesIntersectData& contact, int particle, double radius, const Eigen::Vector3d& outward,
-           const Eigen::Vector3d& spin, ForceData& on_particle) const {
-    const Eigen::Matrix3d to_world = spheres_->orientation(particle).toRotationMatrix();
-    const Eigen::Vector3d towards = to_world.transpose() * -outward;
-    const eccentra::rolling::CarriedContact carried = spheres_->shape().carried(towards, contact.deltan / radius);
-    // r_c x F_n; the damping acts on the normal velocity that the spin gives the sub-spheres.
-    const Eigen::Vector3d lever = radius * (to_world * carried.arm).cross(outward);
-    Eigen::Vector3d torque = contact.Fn * lever;
-    if (damped_) {
-      // Sum over the sub-spheres of (c x n)((c x n) . w) = (C (n x w)) x n with C the mean of c c^T.
-      const Eigen::Vector3d across = to_world.transpose() * outward.cross(spin);
-      torque -= (contact.gamman * radius * radius) * (to_world * (carried.spread * across)).cross(outward);
-    }
+  void add_now(const SurfacesIntersectData& contact, int particle, double radius, const double* outward,
+               const double* spin, ForceData& on_particle) const {
+    using namespace eccentra::rolling;
+    const Eigen::Map<const Eigen::Vector3d> n(outward);
+    const double* const q = spheres_->orientation(particle);
+    // T = R (sum of c times its force) x n; the dashpot acts on the normal velocity that the spin gives the
+    // sub-spheres.
+    const ContactLoad load{contact.Fn, damped_ ? contact.gamman * radius : 0.0,
+                           n.cross(Eigen::Map<const Eigen::Vector3d>(spin))};
+    const Eigen::Vector3d moment =
+        turned_moment(spheres_->shape(), {q[0], q[1], q[2], q[3]}, -n, contact.deltan / radius, load);
+    const Eigen::Vector3d torque = radius * moment.cross(n);
     for (int k = 0; k < 3; ++k)
       on_particle.delta_torque[k] += torque[k];
+  }
+
+  void add_later(const SurfacesIntersectData& contact, int particle, double radius, const double* outward,
+                 const double* spin) {
+    if (batch_.full())
+      evaluate();
+    batch_.add(particle, spheres_->orientation(particle), radius, outward, spin, contact.deltan / radius, contact.Fn,
+               damped_ ? contact.gamman : 0.0);
+  }
+
+  void evaluate() {
+    double** const torques = atom->torque;
+    batch_.evaluate(spheres_->shape(), [this, torques](int i, const double* torque) {
+      const double relaxed = pair_->relax(i);
+      for (int k = 0; k < 3; ++k)
+        torques[i][k] += relaxed * torque[k];
+    });
   }
 
   bool is_wall_;
@@ -100,6 +137,9 @@ template <> class RollingModel<ROLLING_ECCENTRIC> : public RollingModelBase {
   std::vector<std::string> shape_words_;
   eccentra::rolling::FixSphereOrientation* spheres_ = nullptr;
   eccentra::rolling::WallSpin wall_spin_;
+  LAMMPS_NS::PairGran* pair_ = nullptr;
+  bool torques_are_read_ = false; ///< by what looks at single contacts: each must have its torque at once
+  eccentra::rolling::EccentricBatch batch_;
 };
 
 } // namespace ContactModels

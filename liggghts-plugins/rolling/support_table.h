@@ -3,8 +3,10 @@
 // Which sub-spheres of a shape a contact in a given direction can touch, found without looking at all of them. Pure.
 #pragma once
 
+#include "rolling/lane_sums.h"
 #include "shape/cluster_shape.h"
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -13,11 +15,54 @@
 
 namespace eccentra::rolling {
 
-/// What the sub-spheres that carry a contact do, in units of R_eq: multiply `arm` by R, `spread` by R^2.
-struct CarriedContact {
-  Eigen::Vector3d arm;    ///< r_c of eq (32): mean of the centres, weighted by their share of the force
-  Eigen::Matrix3d spread; ///< mean of c c^T, weighted alike
+/// Eight sub-spheres side by side, in units of the particle's radius; places that are not taken reach nowhere.
+struct SphereBlock {
+  using Lanes = EightLanes;
+  static constexpr int kLanes = Lanes::SizeAtCompileTime;
+  Lanes x, y, z, r;
+  /// How far each reaches in direction d, c . d + r.
+  Lanes along(const Eigen::Vector3d& d) const { return x * d[0] + y * d[1] + z * d[2]; }
+  Lanes reach(const Eigen::Vector3d& d) const { return along(d) + r; }
 };
+
+/// Normal force on one side of a contact: each sub-sphere at c presses with its share of push - drag (c . across).
+struct ContactLoad {
+  double push;            ///< F_n [N]
+  double drag;            ///< gamma_n R of the dashpot [N s]; 0: rocking is not damped
+  Eigen::Vector3d across; ///< n x omega, n the direction of the force: c . across is a normal velocity over R [1/s]
+};
+
+/// Depths outside these bounds, in units of the radius, count as the bound: at none the furthest sub-sphere carries
+/// all.
+constexpr double kShallowestShare = 1e-9;
+constexpr double kDeepestShare = 0.01;
+
+/// Sum over the sub-spheres that carry a contact of c times its part of the load, in units of R: without drag F_n r_c /
+/// R of eq (32). A flat partner in unit direction d (from the centre towards the partner; same frame as the blocks)
+/// overlaps the furthest sub-sphere by `depth`, in units of R; those that it overlaps, too, share the force in
+/// proportion to their overlap. Face on, a cube thus stands on all corners of a face, not on one.
+inline Eigen::Vector3d carried_moment(const SphereBlock* begin, const SphereBlock* end, const Eigen::Vector3d& d,
+                                      double depth, const ContactLoad& load) {
+  using Lanes = SphereBlock::Lanes;
+  Lanes furthest = begin->reach(d);
+  for (const SphereBlock* block = begin + 1; block < end; ++block)
+    furthest = furthest.max(block->reach(d));
+  const double level = largest_lane(furthest) - std::clamp(depth, kShallowestShare, kDeepestShare);
+  Lanes sum = Lanes::Zero();
+  Lanes x = Lanes::Zero();
+  Lanes y = Lanes::Zero();
+  Lanes z = Lanes::Zero();
+  for (const SphereBlock* block = begin; block < end; ++block) {
+    const Lanes share = (block->reach(d) - level).max(0.0);
+    const Lanes force = share * (load.push - load.drag * block->along(load.across));
+    sum += share;
+    x += force * block->x;
+    y += force * block->y;
+    z += force * block->z;
+  }
+  const Eigen::Vector4d sums = lane_sums(x, y, z, sum);
+  return sums.head<3>() * (1.0 / sums[3]);
+}
 
 /// Built once per shape, in units of its equivalent radius R_eq; directions in the body frame. Knows only the
 /// sub-spheres that are furthest in some direction, the corners of the convex hull of the shape: those that lie between
@@ -26,18 +71,19 @@ class SupportTable {
  public:
   explicit SupportTable(const shape::ClusterShape& shape);
 
-  /// The contact of a flat partner in unit direction d (from the centre towards the partner) at the given depth, in
-  /// units of R_eq; depths beyond kDeepest count as kDeepest. Sub-spheres that a flat partner would overlap by x share
-  /// the force in proportion to x^(3/2), as Hertz contacts do. Face on, a cube thus stands on all sub-spheres of a
-  /// face, not on one.
-  CarriedContact carried(const Eigen::Vector3d& d, double depth) const;
-
-  /// Largest lever max |c x d| over all directions, in units of R_eq.
-  double largest_lever() const { return largest_lever_; }
+  const std::vector<shape::Sphere>& corners() const { return corners_; }
+  /// So few corners that looking at each beats looking up which.
+  bool few() const { return corners_.size() <= static_cast<std::size_t>(kFewCorners); }
+  /// carried_moment of this shape.
+  Eigen::Vector3d moment(const Eigen::Vector3d& d, double depth, const ContactLoad& load) const;
+  /// r_c of eq (32) in units of R_eq: the mean of the centres of the carrying sub-spheres, weighted by their shares.
+  Eigen::Vector3d arm(const Eigen::Vector3d& d, double depth) const {
+    return moment(d, depth, {1.0, 0.0, Eigen::Vector3d::Zero()});
+  }
   /// How far the shape reaches in direction d, max(c . d + r), in units of R_eq.
   double reach(const Eigen::Vector3d& d) const;
 
-  static constexpr double kDeepest = 0.01;
+  static constexpr int kFewCorners = 4 * SphereBlock::kLanes;
 
  private:
   static constexpr int kCellsPerEdge = 32; ///< of each face of the cube that directions are sorted into
@@ -46,84 +92,20 @@ class SupportTable {
   static Eigen::Vector3d centre_of(int cell, double& half_angle);
   void keep_corners();
   void fill_cells();
+  static void append_blocks(const std::vector<shape::Sphere>& spheres, std::vector<SphereBlock>& blocks);
 
-  static constexpr int kLanes = 8;
-  static constexpr int kFewCorners = 4 * kLanes;
-  using Lanes = Eigen::Array<double, kLanes, 1>;
-  /// Eight sub-spheres side by side; the last block of a list is filled up with ones that reach nowhere.
-  struct Block {
-    Lanes x, y, z, r;
-    Lanes reach(const Eigen::Vector3d& d) const { return x * d[0] + y * d[1] + z * d[2] + r; }
-  };
-  static void append_blocks(const std::vector<shape::Sphere>& spheres, std::vector<Block>& blocks);
-
-  std::vector<shape::Sphere> spheres_; ///< corners
-  std::vector<Block> blocks_;          ///< all corners, if they are few
-  std::vector<int> first_;             ///< per cell: its first block; one more entry at the end
-  std::vector<Block> cell_blocks_;
-  double largest_lever_ = 0;
+  std::vector<shape::Sphere> corners_;
+  std::vector<SphereBlock> few_corners_;
+  std::vector<int> first_; ///< per cell: its first block; one more entry at the end
+  std::vector<SphereBlock> cell_blocks_;
 };
 
-inline int SupportTable::cell_of(const Eigen::Vector3d& d) {
-  const double x = std::abs(d[0]);
-  const double y = std::abs(d[1]);
-  const double z = std::abs(d[2]);
-  const int axis = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
-  const int next = axis == 2 ? 0 : axis + 1;
-  const int last = axis == 0 ? 2 : axis - 1;
-  const int face = 2 * axis + (d[axis] < 0.0);
-  constexpr double half = 0.5 * kCellsPerEdge;
-  const double scale = half / std::abs(d[axis]);
-  const auto place = [scale](double u) { return std::min(kCellsPerEdge - 1, static_cast<int>(u * scale + half)); };
-  return (face * kCellsPerEdge + place(d[next])) * kCellsPerEdge + place(d[last]);
-}
-
-inline CarriedContact SupportTable::carried(const Eigen::Vector3d& d, double depth) const {
-  // Few corners: all of them, without a branch. Many: those that the cell of the direction lists.
-  const bool few = !blocks_.empty();
-  const int cell = few ? 0 : cell_of(d);
-  const Block* const begin = few ? blocks_.data() : cell_blocks_.data() + first_[cell];
-  const Block* const end = few ? begin + blocks_.size() : cell_blocks_.data() + first_[cell + 1];
-  Lanes furthest = begin->reach(d);
-  for (const Block* block = begin + 1; block < end; ++block)
-    furthest = furthest.max(block->reach(d));
-  // At no depth the furthest sub-sphere carries all.
-  constexpr double shallowest = 1e-9;
-  const double level = furthest.maxCoeff() - std::clamp(depth, shallowest, kDeepest);
-  Lanes share = (begin->reach(d) - level).max(0.0);
-  Lanes sum = share;
-  Lanes sx = share * begin->x;
-  Lanes sy = share * begin->y;
-  Lanes sz = share * begin->z;
-  Lanes xx = sx * begin->x;
-  Lanes xy = sx * begin->y;
-  Lanes xz = sx * begin->z;
-  Lanes yy = sy * begin->y;
-  Lanes yz = sy * begin->z;
-  Lanes zz = sz * begin->z;
-  for (const Block* block = begin + 1; block < end; ++block) {
-    share = (block->reach(d) - level).max(0.0);
-    const Lanes bx = share * block->x;
-    const Lanes by = share * block->y;
-    const Lanes bz = share * block->z;
-    sum += share;
-    sx += bx;
-    sy += by;
-    sz += bz;
-    xx += bx * block->x;
-    xy += bx * block->y;
-    xz += bx * block->z;
-    yy += by * block->y;
-    yz += by * block->z;
-    zz += bz * block->z;
-  }
-  const double scale = 1.0 / sum.sum();
-  CarriedContact contact;
-  contact.arm = scale * Eigen::Vector3d(sx.sum(), sy.sum(), sz.sum());
-  const double cross[3] = {scale * xy.sum(), scale * xz.sum(), scale * yz.sum()};
-  contact.spread << scale * xx.sum(), cross[0], cross[1], cross[0], scale * yy.sum(), cross[2], cross[1], cross[2],
-      scale * zz.sum();
-  return contact;
+/// carried_moment of a shape turned by `orientation` (body to world); all vectors in the world frame.
+inline Eigen::Vector3d turned_moment(const SupportTable& shape, const Eigen::Quaterniond& orientation,
+                                     const Eigen::Vector3d& d, double depth, const ContactLoad& load) {
+  const Eigen::Matrix3d to_world = orientation.toRotationMatrix();
+  const Eigen::Matrix3d to_body = to_world.transpose();
+  return to_world * shape.moment(to_body * d, depth, {load.push, load.drag, to_body * load.across});
 }
 
 } // namespace eccentra::rolling

@@ -92,17 +92,34 @@ double largest_difference(const States& a, const States& b) {
 
 } // namespace
 
-class Invariance : public ::testing::TestWithParam<const char*> {};
+/// Model and words that follow it.
+struct ModelWords {
+  const char* name;
+  const char* model;
+  const char* words;
+  const char* pair_words;
+  double mu_shape;
+};
+
+class Invariance : public ::testing::TestWithParam<ModelWords> {
+ protected:
+  RollingScene scene() const {
+    RollingScene scene;
+    scene.model = GetParam().model;
+    scene.words = GetParam().words;
+    scene.pair_words = GetParam().pair_words;
+    scene.mu_shape = GetParam().mu_shape;
+    return scene;
+  }
+};
 
 // Not the form directional: its torque jumps with the sign of a spin of round-off size (page of the model).
 class RankInvariance : public Invariance {};
 
 // Sums of forces come in another order: round-off, which contacts amplify over 0.04 s.
 TEST_P(RankInvariance, OneRankEqualsTwo) {
-  RollingScene scene;
-  scene.words = GetParam();
-  scene.mu_shape = 0.32;
-  const std::filesystem::path folder = fresh_folder("ranks");
+  const RollingScene scene = this->scene();
+  const std::filesystem::path folder = fresh_folder(std::string("ranks_") + GetParam().name);
   const long steps = 2000;
   const auto last = [&](const std::string& name) {
     return falling_box(scene) + "run " + std::to_string(steps - 1) + "\n" + dump_line(name + ".dump", steps) +
@@ -114,10 +131,8 @@ TEST_P(RankInvariance, OneRankEqualsTwo) {
 }
 
 TEST_P(Invariance, RestartContinues) {
-  RollingScene scene;
-  scene.words = GetParam();
-  scene.mu_shape = 0.32;
-  const std::filesystem::path folder = fresh_folder("restart");
+  const RollingScene scene = this->scene();
+  const std::filesystem::path folder = fresh_folder(std::string("restart_") + GetParam().name);
   const States through = run_script(folder, "through",
                                     falling_box(scene) + "run 1000\nwrite_restart half.restart\nrun 499\n" +
                                         dump_line("through.dump", 1500) + "run 1\n",
@@ -136,10 +151,18 @@ TEST_P(Invariance, RestartContinues) {
   EXPECT_EQ(largest_difference(through, after), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shape, RankInvariance, ::testing::Values("form limited", "form epsd"),
-                         [](const auto& info) { return std::string(info.param).substr(5); });
-INSTANTIATE_TEST_SUITE_P(Shape, Invariance, ::testing::Values("form limited", "form epsd", "form directional"),
-                         [](const auto& info) { return std::string(info.param).substr(5); });
+namespace {
+const ModelWords kLimited{"limited", "shape", "form limited", "", 0.32};
+const ModelWords kSprings{"epsd", "shape", "form epsd", "", 0.32};
+const ModelWords kDirectional{"directional", "shape", "form directional", "", 0.32};
+const ModelWords kEccentric{"eccentric", "eccentric", "", "shape cube 64", 0};
+std::string name_of(const ::testing::TestParamInfo<ModelWords>& info) {
+  return info.param.name;
+}
+} // namespace
+
+INSTANTIATE_TEST_SUITE_P(Models, RankInvariance, ::testing::Values(kLimited, kSprings, kEccentric), name_of);
+INSTANTIATE_TEST_SUITE_P(Models, Invariance, ::testing::Values(kLimited, kSprings, kDirectional, kEccentric), name_of);
 
 class StockModels : public ::testing::TestWithParam<const char*> {};
 

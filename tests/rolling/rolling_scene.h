@@ -26,6 +26,7 @@ constexpr double kPi = 3.14159265358979323846;
 struct RollingScene {
   std::string model = "shape";       ///< word after rolling_friction
   std::string words;                 ///< words of the model that follow it
+  std::string pair_words;            ///< words that pair_style alone takes: the shape of eccentric
   double mu_r = 0;                   ///< coefficientRollingFriction
   double mu_shape = 0.1;             ///< shapeRollingFriction
   double mu_s = 0.5;                 ///< Coulomb
@@ -68,8 +69,8 @@ inline std::string materials(const RollingScene& scene) {
 
 inline std::string forces(const RollingScene& scene) {
   const double size = scene.gravity.norm() * kGravity;
-  std::string text = "pair_style gran " + model_words(scene) + " " + scene.words + "\npair_coeff * *\ntimestep " +
-                     number(scene.timestep) + "\n";
+  std::string text = "pair_style gran " + model_words(scene) + " " + scene.words + " " + scene.pair_words +
+                     "\npair_coeff * *\ntimestep " + number(scene.timestep) + "\n";
   if (size > 0)
     text += "fix gravity all gravity " + number(size) + " vector " + number(scene.gravity[0]) + " " +
             number(scene.gravity[1]) + " " + number(scene.gravity[2]) + "\n";

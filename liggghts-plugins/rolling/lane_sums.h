@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sums over the lanes of four arrays at once: one after the other they cost as much as the arithmetic before them.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace eccentra::rolling {
+
+using EightLanes = Eigen::Array<double, 8, 1>;
+
+/// The sums of a, b, c and d.
+inline Eigen::Vector4d lane_sums(const EightLanes& a, const EightLanes& b, const EightLanes& c, const EightLanes& d) {
+  typedef double Four __attribute__((vector_size(32)));
+  const auto halves = [](const EightLanes& v) {
+    const Eigen::Array4d sum = v.head<4>() + v.tail<4>();
+    return Four{sum[0], sum[1], sum[2], sum[3]};
+  };
+  // Neighbouring lanes of u and v added, side by side: u0 + u1, v0 + v1, u2 + u3, v2 + v3.
+  const auto pairs = [](const Four& u, const Four& v) {
+    return __builtin_shufflevector(u, v, 0, 4, 2, 6) + __builtin_shufflevector(u, v, 1, 5, 3, 7);
+  };
+  const Four ab = pairs(halves(a), halves(b));
+  const Four cd = pairs(halves(c), halves(d));
+  const Four sums = __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+  return {sums[0], sums[1], sums[2], sums[3]};
+}
+
+/// The largest lane.
+inline double largest_lane(const EightLanes& v) {
+  const Eigen::Array4d four = v.head<4>().max(v.tail<4>());
+  const Eigen::Array2d two = four.head<2>().max(four.tail<2>());
+  return std::max(two[0], two[1]);
+}
+
+} // namespace eccentra::rolling
