@@ -4,6 +4,7 @@
 #include "cluster/bodies.h"
 
 #include "cluster/incompatible_styles.h"
+#include "cluster/restart_version.h"
 #include "host/style_registry.h"
 
 #include "atom.h"
@@ -240,6 +241,7 @@ void FixBodies::write_restart(FILE* fp) {
   if (comm->me != 0)
     return;
   ByteWriter bytes;
+  bytes.put(restart_mark);
   // Within a run, the run goes on with its forces; between runs, the next one computes them anew, restarted or not.
   bytes.put(update->whichflag != 0);
   bytes.put(shapes_.size());
@@ -264,6 +266,8 @@ void FixBodies::write_restart(FILE* fp) {
 
 void FixBodies::restart(char* buf) {
   ByteReader bytes(buf);
+  if (const std::string problem = restart_problem(bytes.get<int>(), "clusters"); !problem.empty())
+    error->all(FLERR, problem.c_str());
   resuming_ = bytes.get<bool>();
   if (resuming_)
     resumed_.assign(atom->nmax, {});

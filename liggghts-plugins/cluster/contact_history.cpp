@@ -3,14 +3,18 @@
 // Packs and unpacks touches.
 #include "cluster/contact_history.h"
 
+#include "cluster/restart_version.h"
+#include "cluster/wall_gran_cluster.h"
 #include "host/style_registry.h"
 
 #include "atom.h"
 #include "comm.h"
+#include "error.h"
 #include "lammps.h"
 #include "modify.h"
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 
 namespace eccentra::cluster {
@@ -25,7 +29,7 @@ constexpr int words_per_touch = 5;
 
 FixContactHistory::FixContactHistory(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {
   restart_peratom = 1;
-  restart_global = 1; // for write_restart alone, which comes before the atoms are packed
+  restart_global = 1; // write_restart comes before the atoms are packed
   create_attribute = 1;
   grow_arrays(atom->nmax);
   atom->add_callback(0);
@@ -61,10 +65,12 @@ void FixContactHistory::setup_pre_exchange() {
 void FixContactHistory::pre_exchange() {
   if (hand_over)
     hand_over(false);
-  std::size_t most = 0;
-  for (int i = 0; i < atom->nlocal; ++i)
-    most = std::max(most, touches_[i].size());
-  comm->maxexchange_fix = std::max(comm->maxexchange_fix, static_cast<int>(1 + words_per_touch * most));
+  // Room in the buffers of migration, for what walls keep as well.
+  int most = maxsize_restart();
+  for (int n = 0; n < modify->nfix; ++n)
+    if (std::strcmp(modify->fix[n]->style, FixWallGranCluster::inner_style) == 0)
+      most += modify->fix[n]->maxsize_restart();
+  comm->maxexchange_fix = std::max(comm->maxexchange_fix, most);
 }
 
 void FixContactHistory::post_run() {
@@ -77,8 +83,16 @@ void FixContactHistory::write_restart(FILE* fp) {
     hand_over(true);
   if (comm->me != 0)
     return;
-  const int size = 0;
+  const int size = sizeof(int), mark = restart_mark;
   fwrite(&size, sizeof(int), 1, fp);
+  fwrite(&mark, sizeof(int), 1, fp);
+}
+
+void FixContactHistory::restart(char* buf) {
+  int mark = 0;
+  std::memcpy(&mark, buf, sizeof mark);
+  if (const std::string problem = restart_problem(mark, "contacts of clusters"); !problem.empty())
+    error->all(FLERR, problem.c_str());
 }
 
 void FixContactHistory::grow_arrays(int nmax) {

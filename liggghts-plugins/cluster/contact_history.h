@@ -52,6 +52,7 @@ class FixContactHistory : public LAMMPS_NS::Fix {
   int size_restart(int i) override;
   int maxsize_restart() override;
   void write_restart(FILE* fp) override;
+  void restart(char* buf) override;
   double memory_usage() override;
 
  private:

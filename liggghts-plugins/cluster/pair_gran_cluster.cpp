@@ -4,6 +4,7 @@
 // pair_gran_cluster_forces.cpp.
 #include "cluster/pair_gran_cluster.h"
 
+#include "cluster/restart_version.h"
 #include "host/style_registry.h"
 
 #include "atom.h"
@@ -163,19 +164,21 @@ double PairGranCluster::stressStrainExponent() {
 }
 
 void PairGranCluster::write_restart_settings(FILE* fp) {
-  const int values[] = {static_cast<int>(words_.sharing), static_cast<int>(words_.damping),
+  const int values[] = {restart_mark, static_cast<int>(words_.sharing), static_cast<int>(words_.damping),
                         words_.tangential_damping ? 1 : 0};
-  fwrite(values, sizeof(int), 3, fp);
+  fwrite(values, sizeof(int), 4, fp);
 }
 
 void PairGranCluster::read_restart_settings(FILE* fp, const int, const int) {
-  int values[3] = {0, 0, 1};
-  if (comm->me == 0 && fread(values, sizeof(int), 3, fp) != 3)
+  int values[4] = {restart_mark, 0, 0, 1};
+  if (comm->me == 0 && fread(values, sizeof(int), 4, fp) != 4)
     error->one(FLERR, (std::string(style) + ": the restart file ends within the settings of the pair style").c_str());
-  MPI_Bcast(values, 3, MPI_INT, 0, world);
-  words_.sharing = static_cast<ContactSharing>(values[0]);
-  words_.damping = static_cast<DampingLaw>(values[1]);
-  words_.tangential_damping = values[2] != 0;
+  MPI_Bcast(values, 4, MPI_INT, 0, world);
+  if (const std::string problem = restart_problem(values[0], style); !problem.empty())
+    error->all(FLERR, problem.c_str());
+  words_.sharing = static_cast<ContactSharing>(values[1]);
+  words_.damping = static_cast<DampingLaw>(values[2]);
+  words_.tangential_damping = values[3] != 0;
 }
 
 double PairGranCluster::memory_usage() {

@@ -5,11 +5,13 @@
 
 #include "cluster/bodies.h"
 #include "cluster/impact_mass.h"
+#include "cluster/restart_version.h"
 #include "cluster/shared_contacts.h"
 #include "cluster/wall_gaps.h"
 #include "host/style_registry.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "error.h"
 #include "force.h"
 #include "global_properties.h"
@@ -33,10 +35,6 @@ namespace {
 const host::RegisterFix<FixWallGranCluster> record("wall/gran/cluster",
                                                    "walls for clusters and plain spheres: planes, cylinders, meshes");
 
-// Stock styles look walls up by the prefix "wall/gran" and cast what they find to their own class: under this name they
-// do not find us.
-constexpr const char* kInnerStyle = "cluster/wall/gran";
-
 Eigen::Vector3d vector3(const double* v) {
   return {v[0], v[1], v[2]};
 }
@@ -54,8 +52,8 @@ void add(double* sum, const Eigen::Vector3d& v) {
 
 FixWallGranCluster::FixWallGranCluster(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {
   delete[] style;
-  style = new char[std::strlen(kInnerStyle) + 1];
-  std::strcpy(style, kInnerStyle);
+  style = new char[std::strlen(inner_style) + 1];
+  std::strcpy(style, inner_style);
 
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     fail("needs atoms with radius, mass and rotation: use 'atom_style granular'");
@@ -86,6 +84,7 @@ FixWallGranCluster::FixWallGranCluster(LAMMPS* lmp, int narg, char** arg) : Fix(
   extvector = 1;
   global_freq = 1;
   restart_peratom = 1;
+  restart_global = 1;
   create_attribute = 1;
   time_depend = 0;
 
@@ -487,6 +486,19 @@ int FixWallGranCluster::size_restart(int i) {
 }
 int FixWallGranCluster::maxsize_restart() {
   return 1 + history_.largest();
+}
+void FixWallGranCluster::write_restart(FILE* file) {
+  if (comm->me != 0)
+    return;
+  const int size = sizeof(int), mark = restart_mark;
+  fwrite(&size, sizeof(int), 1, file);
+  fwrite(&mark, sizeof(int), 1, file);
+}
+void FixWallGranCluster::restart(char* state) {
+  int mark = 0;
+  std::memcpy(&mark, state, sizeof mark);
+  if (const std::string problem = restart_problem(mark, "history"); !problem.empty())
+    fail(problem);
 }
 int FixWallGranCluster::pack_restart(int i, double* buffer) {
   buffer[0] = size_restart(i);

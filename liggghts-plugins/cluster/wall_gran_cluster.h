@@ -25,6 +25,10 @@ class FixBodies;
 /// point of the plane or of the cylinder's axis (meshes: about the origin).
 class FixWallGranCluster : public LAMMPS_NS::Fix {
  public:
+  /// Stock styles look walls up by the prefix "wall/gran" and cast what they find to their own class: under this name
+  /// they do not find us.
+  static constexpr const char* inner_style = "cluster/wall/gran";
+
   FixWallGranCluster(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
   ~FixWallGranCluster() override;
 
@@ -60,6 +64,8 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   void set_arrays(int i) override;
   int pack_exchange(int i, double* buffer) override;
   int unpack_exchange(int i, double* buffer) override;
+  void write_restart(FILE* file) override;
+  void restart(char* state) override;
   int pack_restart(int i, double* buffer) override;
   void unpack_restart(int i, int nth) override;
   int size_restart(int i) override;

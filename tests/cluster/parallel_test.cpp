@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <random>
 
 using namespace eccentra;
@@ -28,7 +29,7 @@ void fill(LiggghtsSession& session) {
     for (int a = 0; a < rows; ++a)
       for (int b = 0; b < rows; ++b, ++n) {
         Start start;
-        start.position = Eigen::Vector3d((a - 1.5) * 9.5e-3, (b - 1.5) * 9.5e-3, -0.093 + c * 9.5e-3);
+        start.position = Eigen::Vector3d((a - 1.5) * 9.5e-3, (b - 1.5) * 9.5e-3, -0.085 + c * 9.5e-3);
         start.velocity = 0.2 * Eigen::Vector3d(normal(random), normal(random), normal(random));
         start.omega = 20 * Eigen::Vector3d(normal(random), normal(random), normal(random));
         start.orientation =
@@ -47,11 +48,31 @@ void fill(LiggghtsSession& session) {
   add_body(session, shapes[2], leaving);
 }
 
+/// A floor, a turning cylinder around the bodies and a ramp of triangles among them.
 constexpr const char* forces = R"(
   fix gravity all gravity 9.81 vector 0 0 -1
   fix floor all wall/gran/cluster model hertz tangential history primitive type 1 zplane -0.1
+  fix hole all wall/gran/cluster model hertz tangential history primitive type 1 zcylinder 0.026 0 0 rotate 20
+  fix ramp_mesh all mesh/surface file ramp.stl type 1
+  fix ramp all wall/gran/cluster model hertz tangential history mesh n_meshes 1 meshes ramp_mesh
   thermo_modify lost ignore
 )";
+
+/// Written by rank 0, as all ranks read it.
+void write_ramp() {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0) {
+    std::ofstream stl("ramp.stl");
+    const char* corners[4] = {"-0.02 -0.02 -0.1", "0.02 -0.02 -0.095", "0.02 0.02 -0.09", "-0.02 0.02 -0.095"};
+    stl << "solid ramp\n";
+    for (const int t : {1, 2})
+      stl << "facet normal 0 0 1\nouter loop\nvertex " << corners[0] << "\nvertex " << corners[t] << "\nvertex "
+          << corners[t + 1] << "\nendloop\nendfacet\n";
+    stl << "endsolid ramp\n";
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+}
 
 using Row = std::array<double, 13>;
 
@@ -96,15 +117,34 @@ std::vector<Row> straight_run(MPI_Comm ranks, int steps) {
 } // namespace
 
 TEST(Parallel, AnyNumberOfRanksGivesTheSameDigits) {
+  write_ramp();
   constexpr int steps = 6000;
   expect_identical(straight_run(MPI_COMM_WORLD, steps), straight_run(MPI_COMM_SELF, steps));
 }
 
+namespace {
+
+/// Goes on from a restart file on these ranks.
+void resume(LiggghtsSession& session, const std::string& file) {
+  session.script("atom_style granular\natom_modify map array\nboundary f f f\nnewton off\n"
+                 "communicate single vel yes\nunits si\nread_restart " +
+                 file +
+                 "\nneighbor 0.001 bin\nneigh_modify delay 0\n"
+                 "fix m1 all property/global youngsModulus peratomtype 5e6\n"
+                 "fix m2 all property/global poissonsRatio peratomtype 0.3\n"
+                 "fix m3 all property/global coefficientRestitution peratomtypepair 1 0.9\n"
+                 "fix m4 all property/global coefficientFriction peratomtypepair 1 0.5\n");
+  use_clusters(session);
+  session.script(forces);
+  session.script("timestep 1e-5\n");
+}
+
+} // namespace
+
 TEST(Parallel, RestartGivesTheSameDigitsAsAStraightRun) {
   constexpr int half = 3000;
+  write_ramp();
   const std::vector<Row> reference = straight_run(MPI_COMM_SELF, 2 * half);
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   {
     LiggghtsSession session;
     open_box(session, {});
@@ -115,18 +155,42 @@ TEST(Parallel, RestartGivesTheSameDigitsAsAStraightRun) {
                    std::to_string(half + 100) + "\n");
   }
   LiggghtsSession session(MPI_COMM_SELF); // written by all ranks, read by one
-  session.script("atom_style granular\natom_modify map array\nboundary f f f\nnewton off\n"
-                 "communicate single vel yes\nunits si\nread_restart half.restart." +
-                 std::to_string(half) +
-                 "\nneighbor 0.001 bin\nneigh_modify delay 0\n"
-                 "fix m1 all property/global youngsModulus peratomtype 5e6\n"
-                 "fix m2 all property/global poissonsRatio peratomtype 0.3\n"
-                 "fix m3 all property/global coefficientRestitution peratomtypepair 1 0.9\n"
-                 "fix m4 all property/global coefficientFriction peratomtypepair 1 0.5\n");
-  use_clusters(session);
-  session.script(forces);
-  session.script("timestep 1e-5\nrun " + std::to_string(half) + "\n");
+  resume(session, "half.restart." + std::to_string(half));
+  session.script("run " + std::to_string(half) + "\n");
   expect_identical(rows_of(session, bodies_at_start, MPI_COMM_SELF), reference);
+}
+
+TEST(Parallel, RestartGoesOnOnMoreAndMoreRanks) {
+  constexpr int part = 1500;
+  int rank = 0, ranks = 1;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  write_ramp();
+  const std::vector<Row> reference = straight_run(MPI_COMM_SELF, 3 * part);
+  const int sizes[] = {1, std::min(2, ranks), ranks};
+  for (int n = 0; n < 3; ++n) {
+    MPI_Comm some;
+    MPI_Comm_split(MPI_COMM_WORLD, rank < sizes[n] ? 0 : MPI_UNDEFINED, rank, &some);
+    if (some != MPI_COMM_NULL) {
+      LiggghtsSession session(some);
+      if (n == 0) {
+        open_box(session, {});
+        use_clusters(session);
+        fill(session);
+        session.script(forces);
+        session.script("timestep 1e-5\n");
+      } else {
+        resume(session, "chain.restart." + std::to_string(n * part));
+      }
+      session.script("restart " + std::to_string((n + 1) * part) + " chain.restart\nrun " +
+                     std::to_string(part + (n < 2 ? 10 : 0)) + "\n");
+      if (n == 2)
+        expect_identical(rows_of(session, bodies_at_start, some), reference);
+    }
+    if (some != MPI_COMM_NULL)
+      MPI_Comm_free(&some);
+    MPI_Barrier(MPI_COMM_WORLD);
+  }
 }
 
 TEST(Parallel, PairsMeetThroughPeriodicBoundariesAsInTheMiddle) {
