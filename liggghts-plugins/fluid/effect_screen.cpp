@@ -13,7 +13,8 @@ namespace eccentra::fluid {
 namespace {
 
 constexpr double kQuantile = 0.95;
-constexpr int kSamples = 64; ///< of one measurement
+constexpr int kSamples = 64;       ///< of one measurement
+constexpr double kEndless = 1e100; ///< more than the histograms tell apart
 
 bool is_drag(const Effect& effect) {
   return !std::strcmp(effect.slot(), "drag");
@@ -31,9 +32,12 @@ double change_of_row(const double* now, const double* before) {
   return norm(change);
 }
 
-/// a/b where nothing over nothing is nothing, and something over nothing is endless.
+/// a/b where nothing over nothing is nothing, and something over nothing is endless. No division by zero: a solver
+/// that hosts this library traps it.
 double ratio(double a, double b) {
-  return a == 0.0 ? 0.0 : a / b;
+  if (a == 0.0)
+    return 0.0;
+  return b <= a / kEndless ? kEndless : a / b;
 }
 
 template <class... Values> void append(std::string& text, const char* format, Values... values) {

@@ -297,6 +297,7 @@ link::DemTotals FixFluidCouple::totals() const {
 void FixFluidCouple::meet(double elapsed) {
   const double arrived = MPI_Wtime();
   link::Meeting meeting;
+  meeting.needed = forces_->needs();
   meeting.elapsed = elapsed;
   meeting.dem_seconds = elapsed > 0 ? arrived - left_fluid_at_ : 0.0;
   meeting.pack_seconds = pack_seconds_;

@@ -34,7 +34,7 @@ inline std::array<double, kNumbers> particle_numbers(const Kick& kick, int i, co
     const double per_rate = fluid.density * d * d / viscosity;
     n[kShearReynolds] = per_rate * norm(kick.samples.vorticity[i]);
     n[kSpinReynolds] = per_rate * norm(spin);
-    if (speed > 0.0) {
+    if (n[kReynolds] > 0.0) {
       n[kShearParameter] = 0.5 * n[kShearReynolds] / n[kReynolds];
       n[kSpinParameter] = 0.5 * d * norm(spin) / speed;
     }

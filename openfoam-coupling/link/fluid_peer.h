@@ -52,6 +52,7 @@ struct DemTotals {
 
 /// One meeting.
 struct Meeting {
+  unsigned needed = 0;          ///< fluid::Quantity bits asked for now: a screen drops some, and asks again
   double elapsed = 0;           ///< DEM time since the last meeting [s]; 0 at the first: nothing advances
   double dem_seconds = 0;       ///< wall-clock time that this rank's DEM took since the last meeting [s]
   double pack_seconds = 0;      ///< and of packing and unpacking at the last meeting [s]
@@ -66,8 +67,8 @@ class FluidPeer {
   virtual ~FluidPeer() = default;
   /// States the DEM side's terms and returns the fluid side's; throws Refusal if they disagree.
   virtual FluidTerms agree(const DemTerms& dem) = 0;
-  /// Hands over the particles, advances the flow by `meeting.elapsed`, and fills the non-null arrays of `samples`
-  /// (rows as in `particles`).
+  /// Hands over the particles, advances the flow by `meeting.elapsed`, and fills the arrays of `samples` (rows as in
+  /// `particles`); those that `meeting.needed` does not name are null.
   virtual void meet(const Meeting& meeting, const ParticleArrays& particles, const fluid::FluidSamples& samples) = 0;
   /// The present run of DEM has ended as intended.
   virtual void run_ended() = 0;

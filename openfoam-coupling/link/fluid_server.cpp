@@ -44,6 +44,10 @@ FluidServer::Command FluidServer::next_command() {
     } else if (command.kind == wire::Kind::meeting && agreed_) {
       const wire::Rows rows = wire::decode_meeting(message_.view(), extents_, command.meeting);
       wire::check_tickets(rows, extents_, cells_of_rank_);
+      if (command.meeting.needed & ~offered_)
+        throw Refusal(
+            "the DEM side asks for fluid quantities that this solver does not offer: drop the effect that needs "
+            "them from fix fluid/force");
       command.count = rows.count;
       command.meeting.pack_seconds += transport_seconds_;
     } else if (command.kind != wire::Kind::run_ended && command.kind != wire::Kind::farewell) {
@@ -60,7 +64,7 @@ FluidServer::Command FluidServer::next_command() {
 
 void FluidServer::answer_terms(FluidPeer& fluid, const Command& command) {
   const FluidTerms terms = fluid.agree(command.terms);
-  needed_ = command.terms.needed;
+  offered_ = terms.offered;
   extents_ = command.terms.extents;
   agreed_ = true;
   on_root(ranks_, [&] {
@@ -72,7 +76,7 @@ void FluidServer::answer_terms(FluidPeer& fluid, const Command& command) {
 void FluidServer::answer_meeting(FluidPeer& fluid, const Command& command) {
   const double begun = MPI_Wtime();
   const std::size_t row_bytes = wire::particle_row_bytes(extents_);
-  const std::size_t answer_bytes = wire::samples_row_bytes(needed_);
+  const std::size_t answer_bytes = wire::samples_row_bytes(command.meeting.needed);
   const Shares shares = even_shares(ranks_, command.count);
   int rank = 0;
   MPI_Comm_rank(ranks_, &rank);
@@ -80,7 +84,7 @@ void FluidServer::answer_meeting(FluidPeer& fluid, const Command& command) {
   std::vector<std::byte> rows(mine * std::max(row_bytes, answer_bytes));
   const std::byte* const all = channel_ ? message_.view().data + wire::kHeaderBytes + wire::kMeetingBytes : nullptr;
   scatter_rows(ranks_, all, shares, row_bytes, rows.data(), static_cast<int>(mine));
-  wire::Guests guests({mine, rows.data()}, extents_, needed_);
+  wire::Guests guests({mine, rows.data()}, extents_, command.meeting.needed);
   const double ready = MPI_Wtime();
 
   fluid.meet(command.meeting, guests.particles(), guests.samples());
@@ -92,7 +96,7 @@ void FluidServer::answer_meeting(FluidPeer& fluid, const Command& command) {
   gather_rows(ranks_, rows.data(), static_cast<int>(mine), answer_bytes, shares,
               channel_ ? answer.data() + head : nullptr);
   on_root(ranks_, [&] {
-    wire::write_samples_head(answer.data(), command.count, needed_);
+    wire::write_samples_head(answer.data(), command.count, command.meeting.needed);
     // Before sending: the DEM side begins at once, and may take this processor.
     transport_seconds_ = MPI_Wtime() - met + ready - begun;
     channel_->send(std::move(answer));

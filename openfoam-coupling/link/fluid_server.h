@@ -40,7 +40,7 @@ class FluidServer {
   Channel::Message message_;                ///< of rank 0: the present one
   std::vector<std::int32_t> cells_of_rank_; ///< on rank 0
   bool agreed_ = false;
-  unsigned needed_ = 0;
+  unsigned offered_ = 0; ///< quantities that the fluid's terms offered
   bool extents_ = false;
   double transport_seconds_ = 0; ///< of the last meeting; of rank 0
 };

@@ -46,7 +46,6 @@ template <class Work> wire::Bytes SocketPeer::on_root_or_leave(Work&& work) {
 }
 
 FluidTerms SocketPeer::agree(const DemTerms& dem) {
-  needed_ = dem.needed;
   extents_ = dem.extents;
   const wire::Bytes reply = on_root_or_leave([&] {
     channel_->send(Channel::Message(wire::encode(dem)));
@@ -62,7 +61,7 @@ FluidTerms SocketPeer::agree(const DemTerms& dem) {
 void SocketPeer::meet(const Meeting& meeting, const ParticleArrays& particles, const fluid::FluidSamples& samples) {
   const double begun = MPI_Wtime();
   const std::size_t row_bytes = wire::particle_row_bytes(extents_);
-  const std::size_t answer_bytes = wire::samples_row_bytes(needed_);
+  const std::size_t answer_bytes = wire::samples_row_bytes(meeting.needed);
   std::vector<std::byte> rows(particles.count * std::max(row_bytes, answer_bytes));
   wire::pack_particles(particles, extents_, rows.data());
   const Shares shares = gather_shares(ranks_, particles.count);
@@ -87,11 +86,11 @@ void SocketPeer::meet(const Meeting& meeting, const ParticleArrays& particles, c
     channel_->send(std::move(message));
     message = channel_->receive();
     answered = MPI_Wtime();
-    answer = wire::decode_samples(message.view(), shares.total, needed_);
+    answer = wire::decode_samples(message.view(), shares.total, meeting.needed);
     return wire::Bytes();
   });
   scatter_rows(ranks_, answer.data, shares, answer_bytes, rows.data(), static_cast<int>(particles.count));
-  wire::unpack_samples({particles.count, rows.data()}, needed_, samples, particles.ticket);
+  wire::unpack_samples({particles.count, rows.data()}, meeting.needed, samples, particles.ticket);
   transport_seconds_ = MPI_Wtime() - begun - (answered - asked);
 }
 

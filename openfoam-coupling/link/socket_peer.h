@@ -35,7 +35,6 @@ class SocketPeer : public FluidPeer {
 
   MPI_Comm ranks_;
   std::unique_ptr<Channel> channel_; ///< of rank 0
-  unsigned needed_ = 0;
   bool extents_ = false;
   double transport_seconds_ = 0; ///< of the last meeting, without the fluid's own time
 };

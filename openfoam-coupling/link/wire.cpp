@@ -341,7 +341,7 @@ void write_meeting_head(std::byte* message, const Meeting& meeting, std::size_t 
   Writer out(message + kHeaderBytes);
   out.put(std::uint64_t(count));
   out.put(std::uint32_t(extents));
-  out.put(std::uint32_t(0));
+  out.put(std::uint32_t(meeting.needed));
   out.put(meeting.elapsed);
   out.put(meeting.dem_seconds);
   out.put(meeting.pack_seconds);
@@ -362,7 +362,7 @@ Rows decode_meeting(View message, bool extents, Meeting& meeting) {
   rows.count = checked_count(in);
   if (in.yes_or_no() != extents)
     broken("has rows of another length than the terms said");
-  in.take<std::uint32_t>();
+  meeting.needed = in.quantities();
   for (double* value : {&meeting.elapsed, &meeting.dem_seconds, &meeting.pack_seconds})
     *value = in.number();
   meeting.steps_done = in.take<std::int64_t>();

@@ -78,7 +78,7 @@ FluidTerms decode_fluid_terms(View message);
 std::string decode_refusal(View message);
 /// `extents` as the DEM side's terms said. Volumes are positive.
 Rows decode_meeting(View message, bool extents, Meeting& meeting);
-/// `count` and `quantities` as they were asked for.
+/// `count` and `quantities` as the meeting asked for.
 Rows decode_samples(View message, std::size_t count, unsigned quantities);
 /// Throws Refusal unless each ticket is blank or names a rank that is there and one of its cells.
 void check_tickets(Rows rows, bool extents, const std::vector<std::int32_t>& cells_of_rank);

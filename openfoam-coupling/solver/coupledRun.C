@@ -36,6 +36,32 @@ constexpr double kGaussianDiameters = 1.0;
 constexpr double kFineCells = 1.5;
 /// Meetings from one report to the next.
 constexpr label kReportEvery = 10;
+constexpr double kMegabyte = 1e6;
+
+/// A quantity that the particles may ask for.
+struct Asked {
+  unsigned bit;
+  const char* name;
+  int doubles;
+};
+constexpr Asked kQuantities[] = {{fluid::kVelocity, "velocity", 3},
+                                 {fluid::kFraction, "fraction", 1},
+                                 {fluid::kPressureGradient, "pressureGradient", 3},
+                                 {fluid::kStressDivergence, "stressDivergence", 3},
+                                 {fluid::kVorticity, "vorticity", 3}};
+
+/// Bytes of one particle's samples.
+std::size_t bytesToParticles(unsigned needed) {
+  std::size_t doubles = 0;
+  for (const Asked& quantity : kQuantities)
+    doubles += needed & quantity.bit ? quantity.doubles : 0;
+  return doubles * sizeof(double);
+}
+
+/// Bytes of one particle on its way to the fluid: position, volume, impulse, drag coefficient, extent.
+std::size_t bytesToFluid(const link::DemTerms& dem) {
+  return (3 + 1 + 3 + 1 + (dem.extents ? link::kExtentDoubles : 0)) * sizeof(double);
+}
 
 class stopwatch {
  public:
@@ -193,12 +219,8 @@ void coupledRun::serveSocket() {
 }
 
 link::FluidTerms coupledRun::agree(const link::DemTerms& dem) {
-  if (!flow_) {
-    // Particles that receive V div tau leave the fluid its own share of it.
-    flow_ = std::make_unique<averagedFlow>(mesh_, averagedFlow::particles::coupled,
-                                           dem.needed & fluid::kStressDivergence ? averagedFlow::stressShare::fraction
-                                                                                 : averagedFlow::stressShare::full);
-  }
+  if (!flow_)
+    flow_ = std::make_unique<averagedFlow>(mesh_, averagedFlow::particles::coupled);
   link::FluidTerms terms;
   terms.time_step = time_.deltaTValue();
   terms.domain = extentsOf(mesh_);
@@ -272,8 +294,8 @@ void coupledRun::meet(const link::Meeting& meeting, const link::ParticleArrays& 
     makeExchange(meeting);
     runIn();
     report_ = std::make_unique<couplingReport>(mesh_, dem_, properties_.getOrDefault<label>("report", kReportEvery));
-    printCounters(meeting, samples);
   }
+  follow(meeting);
   stopwatch watch;
   PartSeconds seconds;
   seconds.dem = meeting.dem_seconds;
@@ -322,21 +344,46 @@ void coupledRun::meet(const link::Meeting& meeting, const link::ParticleArrays& 
 }
 
 void coupledRun::run_ended() {
-  if (report_)
-    report_->finish();
+  if (!report_)
+    return;
+  report_->finish();
+  printCounters();
 }
 
-void coupledRun::printCounters(const link::Meeting& meeting, const fluid::FluidSamples& samples) const {
-  const int toDem = (samples.velocity ? 3 : 0) + (samples.fraction ? 1 : 0) + (samples.pressure_gradient ? 3 : 0) +
-                    (samples.stress_divergence ? 3 : 0) + (samples.vorticity ? 3 : 0);
-  const int toFluid = 3 + 1 + 3 + 1 + (dem_.extents ? link::kExtentDoubles : 0);
-  Info << "coupling: " << label(meeting.totals.particles) << " particles on "
-       << returnReduce(mesh_.nCells(), sumOp<label>()) << " cells; the fluid is asked for"
-       << (samples.velocity ? " velocity" : "") << (samples.fraction ? " fraction" : "")
-       << (samples.pressure_gradient ? " pressureGradient" : "")
-       << (samples.stress_divergence ? " stressDivergence" : "") << (samples.vorticity ? " vorticity" : "") << "; "
-       << label(toFluid * sizeof(double)) << " bytes per particle to the fluid, " << label(toDem * sizeof(double))
-       << " back; spreading length " << exchange_->settings().length << " m" << endl;
+// The screen of fix fluid/force may drop quantities, and ask for them again.
+void coupledRun::follow(const link::Meeting& meeting) {
+  // Over the time that has passed, particles received V div tau if they were told it at its beginning.
+  flow_->setStressShare(asked_ & fluid::kStressDivergence ? averagedFlow::stressShare::fraction
+                                                          : averagedFlow::stressShare::full);
+  if (meeting.needed != asked_ || counters_.meetings == 0)
+    printRequest(meeting);
+  asked_ = meeting.needed;
+  ++counters_.meetings;
+  counters_.pressureGradients += (asked_ & fluid::kPressureGradient) != 0;
+  counters_.stressDivergences += (asked_ & fluid::kStressDivergence) != 0;
+  counters_.velocityGradients += (asked_ & (fluid::kVelocity | fluid::kVorticity)) != 0;
+  counters_.fractionGradients += (asked_ & fluid::kFraction) != 0;
+  counters_.bytesToFluid += double(meeting.totals.particles) * bytesToFluid(dem_);
+  counters_.bytesToParticles += double(meeting.totals.particles) * bytesToParticles(asked_);
+}
+
+void coupledRun::printRequest(const link::Meeting& meeting) const {
+  Info << "coupling, t " << time_.value() << " s: " << label(meeting.totals.particles) << " particles on "
+       << returnReduce(mesh_.nCells(), sumOp<label>()) << " cells; the fluid is asked for";
+  for (const Asked& quantity : kQuantities)
+    if (meeting.needed & quantity.bit)
+      Info << " " << quantity.name;
+  Info << (meeting.needed ? "" : " nothing") << "; " << label(bytesToFluid(dem_))
+       << " bytes per particle to the fluid, " << label(bytesToParticles(meeting.needed)) << " back; spreading length "
+       << exchange_->settings().length << " m" << endl;
+}
+
+void coupledRun::printCounters() const {
+  Info << "computed in " << counters_.meetings << " meetings: pressureGradient " << counters_.pressureGradients
+       << " times, stressDivergence " << counters_.stressDivergences << ", velocity gradient "
+       << counters_.velocityGradients << ", fraction gradient " << counters_.fractionGradients << "; "
+       << counters_.bytesToFluid / kMegabyte << " MB of particles to the fluid, "
+       << counters_.bytesToParticles / kMegabyte << " MB of samples back" << endl;
 }
 
 } // namespace eccentra

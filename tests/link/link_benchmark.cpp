@@ -69,6 +69,7 @@ std::vector<double> times_of_meetings(link::FluidPeer& fluid, std::size_t count,
     high = 1;
   fluid.agree(terms);
   link::Meeting meeting;
+  meeting.needed = kAsked;
   meeting.totals.particles = static_cast<std::int64_t>(count);
   std::vector<double> seconds;
   for (int n = 0; n < kMeetings; ++n) {

@@ -37,6 +37,7 @@ struct SomeParticles {
 
 inline link::Meeting some_meeting() {
   link::Meeting meeting;
+  meeting.needed = kAsked;
   meeting.elapsed = 2e-3;
   meeting.dem_seconds = 0.5;
   meeting.steps_done = 40;

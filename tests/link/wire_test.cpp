@@ -95,6 +95,7 @@ TEST(Wire, MeetingArrivesAsSent) {
     const Bytes message = meeting_message(extents);
     Meeting meeting;
     const wire::Rows rows = wire::decode_meeting(view(message), extents, meeting);
+    EXPECT_EQ(meeting.needed, kAsked);
     EXPECT_EQ(meeting.elapsed, 2e-3);
     EXPECT_EQ(meeting.steps_total, 80);
     EXPECT_EQ(meeting.totals.volume_velocity[2], 3.25);
