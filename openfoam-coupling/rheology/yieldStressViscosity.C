@@ -71,7 +71,8 @@ scalar faceRate(tensor gradient, const vector& n, const vector& derivative) {
 
 } // namespace
 
-tmp<surfaceScalarField> yieldStressViscosity::faceNu(const volTensorField& gradU) const {
+tmp<surfaceScalarField> yieldStressViscosity::faceNu(const volVectorField& velocity,
+                                                     const volTensorField& gradU) const {
   const fvMesh& mesh = U_.mesh();
   tmp<surfaceScalarField> result(new surfaceScalarField(IOobject("faceNu", U_.time().timeName(), mesh), mesh,
                                                         dimensionedScalar("initial", dimViscosity, 0)));
@@ -83,7 +84,7 @@ tmp<surfaceScalarField> yieldStressViscosity::faceNu(const volTensorField& gradU
   forAll(inner, facei) {
     const label own = mesh.owner()[facei], nei = mesh.neighbour()[facei];
     const tensor gradient = weights[facei] * gradU[own] + (1 - weights[facei]) * gradU[nei];
-    inner[facei] = faceRate(gradient, Sf[facei] / magSf[facei], delta[facei] * (U_[nei] - U_[own]));
+    inner[facei] = faceRate(gradient, Sf[facei] / magSf[facei], delta[facei] * (velocity[nei] - velocity[own]));
   }
   evaluate(kinematic_, inner);
   forAll(mesh.boundary(), patchi) {
@@ -97,7 +98,7 @@ tmp<surfaceScalarField> yieldStressViscosity::faceNu(const volTensorField& gradU
     }
     const tensorField gradient(patch.weights() * gradU.boundaryField()[patchi].patchInternalField() +
                                (1 - patch.weights()) * gradU.boundaryField()[patchi].patchNeighbourField());
-    const fvPatchVectorField& U = U_.boundaryField()[patchi];
+    const fvPatchVectorField& U = velocity.boundaryField()[patchi];
     const vectorField derivative(patch.deltaCoeffs() * (U.patchNeighbourField() - U.patchInternalField()));
     const vectorField n(patch.nf());
     forAll(values, i) {

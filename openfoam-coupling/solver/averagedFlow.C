@@ -4,6 +4,9 @@
 // back.
 #include "averagedFlow.H"
 
+#include "deferredConvection.H"
+#include "extrapolatedVelocity.H"
+
 #include "adjustPhi.H"
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
@@ -33,12 +36,17 @@ namespace {
 // The names under which stock pimpleFoam looks its schemes up: one fvSchemes serves both solvers.
 const char* const convectionScheme = "div(phi,U)";
 const char* const diffusionScheme = "laplacian(nuEff,U)";
+const char* const transposedStressScheme = "div((nuEff*dev2(T(grad(U)))))";
+const char* const secondOrderTime = "backward";
 
 // A solid volume that changes by more than this share of the section within one step is no round-off.
 const scalar solidVolumeTolerance = 1e-8;
 
 // Guards the division only: see correctPressure.
 const scalar leastRowSum = 1e-12;
+
+// No incompressible flow is faster [m/s]: sound in water travels at 1500 m/s.
+const scalar fastestFlow = 1e4;
 
 /// Adds the seconds of its life to a sum.
 class stopwatch {
@@ -107,7 +115,11 @@ averagedFlow::averagedFlow(fvMesh& mesh, particles presence, stressShare share)
   if (where == "strainRate") {
     faceLaw_ = dynamic_cast<const viscosityModels::yieldStressViscosity*>(&viscosity_());
   }
+  extrapolates_ = faceLaw_ && word(mesh_.ddtScheme("ddt(U)")) == secondOrderTime;
   keepOldTimes(U_);
+  if (extrapolates_) {
+    keepOldTimes(U_.oldTime());
+  }
   keepOldTimes(phi_);
   mesh_.setFluxRequired(p_.name());
   if (p_.needReference()) {
@@ -164,6 +176,7 @@ void averagedFlow::advance() {
       correctPressure(UEqn);
     }
     drive_.correct(U_, coupled_.valid() ? &coupled_->alpha : nullptr);
+    refuseBlowUp(gMax(mag(U_.primitiveField())()) < fastestFlow);
     if (pimple_.turbCorr()) {
       const stopwatch watch(cost_.rheology);
       viscosity_->correct();
@@ -171,6 +184,14 @@ void averagedFlow::advance() {
   }
   if (coupled_.valid()) {
     storeWithheldForce();
+  }
+}
+
+void averagedFlow::refuseBlowUp(bool bounded) const {
+  if (!bounded) {
+    throw inputError("the flow has blown up at t = " + mesh_.time().timeName() + " s (Courant number " +
+                     std::to_string(CourantNo()) +
+                     "): reduce deltaT, give PIMPLE consistent yes, or a bounded scheme " + "for " + convectionScheme);
   }
 }
 
@@ -190,30 +211,38 @@ void averagedFlow::checkSolidVolume() const {
   }
 }
 
-tmp<surfaceScalarField> averagedFlow::faceViscosity(const volTensorField& gradU) const {
+tmp<surfaceScalarField> averagedFlow::faceViscosity(const volVectorField& U, const volTensorField& gradU) const {
   if (faceLaw_) {
-    return faceLaw_->faceNu(gradU);
+    return faceLaw_->faceNu(U, gradU);
   }
   return fvc::interpolate(viscosity_->nu(), "interpolate(nuEff)");
 }
 
-namespace {
-
-/// div(nu dev2(grad U)^T), the part of the stress that the laplacian leaves.
-tmp<volVectorField> transposedStress(const surfaceScalarField& nu, const volTensorField& gradU) {
-  return fvc::div(nu * fvc::dotInterpolate(gradU.mesh().Sf(), dev2(T(gradU))));
+tmp<volVectorField> averagedFlow::transposedStress(const surfaceScalarField& nu, const volTensorField& gradU) const {
+  if (faceLaw_) {
+    return fvc::div(nu * fvc::dotInterpolate(mesh_.Sf(), dev2(T(gradU))));
+  }
+  return fvc::div(viscosity_->nu() * dev2(T(gradU)), transposedStressScheme);
 }
 
-} // namespace
+tmp<fvVectorMatrix> averagedFlow::convection(const surfaceScalarField& flux, const surfaceScalarField& nu) {
+  tmp<fvVectorMatrix> matrix = fvm::div(flux, U_, convectionScheme);
+  if (CourantNo() > 1) {
+    deferCentralDifferences(matrix.ref(), U_, nu);
+  }
+  return matrix;
+}
 
 tmp<fvVectorMatrix> averagedFlow::momentumMatrix() {
   const stopwatch watch(cost_.momentum);
-  const tmp<volTensorField> gradU = fvc::grad(U_);
-  const tmp<surfaceScalarField> nu = faceViscosity(gradU());
+  const bool ahead = extrapolates_ && pimple_.firstIter();
+  const tmp<volVectorField> U = ahead ? extrapolatedVelocity(U_) : tmp<volVectorField>(U_);
+  const tmp<volTensorField> gradU = fvc::grad(U(), "grad(U)");
+  const tmp<surfaceScalarField> nu = faceViscosity(U(), gradU());
   tmp<fvVectorMatrix> stress(-fvm::laplacian(nu(), U_, diffusionScheme) - transposedStress(nu(), gradU()));
   tmp<fvVectorMatrix> tUEqn;
   if (!coupled_.valid()) {
-    tUEqn = fvm::ddt(U_) + fvm::div(phi_, U_, convectionScheme) + stress;
+    tUEqn = fvm::ddt(U_) + convection(phi_, nu()) + stress;
     if (drive_.active()) {
       tUEqn.ref() -= drive_.acceleration();
     }
@@ -224,8 +253,8 @@ tmp<fvVectorMatrix> averagedFlow::momentumMatrix() {
     if (share_ == stressShare::fraction) {
       stress.ref() *= c.alpha;
     }
-    tUEqn = fvm::ddt(c.alpha, U_) + fvm::div(c.alphaPhi, U_, convectionScheme) - fvm::Sp(c.imbalance, U_) +
-            fvm::Sp(c.exchange, U_) + stress;
+    tUEqn = fvm::ddt(c.alpha, U_) + convection(c.alphaPhi, nu()) - fvm::Sp(c.imbalance, U_) + fvm::Sp(c.exchange, U_) +
+            stress;
     const scalarField& V = mesh_.V().field();
     const vectorField& Uold = U_.oldTime().primitiveField();
     const scalarField& alpha = c.alpha.primitiveField();
@@ -263,7 +292,9 @@ void averagedFlow::predictVelocity(fvVectorMatrix& UEqn) {
 void averagedFlow::correctPressure(fvVectorMatrix& UEqn) {
   const stopwatch watch(cost_.pressure);
   coupledFields* const c = coupled_.valid() ? &coupled_() : nullptr;
-  const volScalarField rAU("rAU", 1.0 / UEqn.A());
+  tmp<volScalarField> A = UEqn.A();
+  refuseBlowUp(gMin(A().primitiveField()) > 0);
+  const volScalarField rAU("rAU", 1.0 / A);
   volVectorField HbyA(constrainHbyA(rAU * UEqn.H(), U_, p_));
   surfaceScalarField phiHbyA("phiHbyA", fvc::flux(HbyA));
   {
@@ -347,7 +378,7 @@ tmp<volVectorField> averagedFlow::vorticity() const {
 
 tmp<volVectorField> averagedFlow::stressDivergence() const {
   const tmp<volTensorField> gradU = fvc::grad(U_);
-  const tmp<surfaceScalarField> nu = faceViscosity(gradU());
+  const tmp<surfaceScalarField> nu = faceViscosity(U_, gradU());
   return dimensionedScalar("rho", dimDensity, rho_) *
          (fvc::laplacian(nu(), U_, diffusionScheme) + transposedStress(nu(), gradU()));
 }

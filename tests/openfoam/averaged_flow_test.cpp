@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The averaged equations with a moving fluid fraction: manufactured motion, mass, momentum, restart, the limit alpha
 // = 1.
+#include "deferredConvection.H"
 #include "flow_case.h"
 
 #include "fvCFD.H"
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 
 namespace eccentra::test {
 namespace {
@@ -139,6 +141,55 @@ TEST(Momentum, SemiImplicitExchangeReturnsWhatItHeldBack) {
   }
 }
 
+TEST(DeferredConvection, KeepsTheSchemeAndTheMomentumAndMakesTheDiagonalDominant) {
+  FlowCase flow_case("deferred");
+  flow_case.control({{"deltaT", "0.1"}});
+  flow_case.periodic_box_mesh(kLength, 6, 5, 4);
+  const std::string all = "\".*\" { type cyclic; }";
+  flow_case.fields("uniform (0 0 0)", all, all);
+  flow_case.newtonian(1000, 0.001);
+  averagedFlow& flow = flow_case.flow();
+  const Foam::fvMesh& mesh = flow_case.mesh();
+  forAll(flow.U(), celli) {
+    const Foam::vector& c = mesh.C()[celli];
+    flow.U()[celli] = Foam::vector(3 + std::sin(kWave * c.y()), std::cos(kWave * c.z()), std::sin(kWave * c.x()));
+  }
+  flow.U().correctBoundaryConditions();
+  const Foam::surfaceScalarField flux(fvc::flux(flow.U()));
+  const Foam::surfaceScalarField nu("nu", fvc::interpolate(flow.rheology().nu()));
+  const Foam::fvVectorMatrix plain(fvm::div(flux, flow.U(), "div(phi,U)"));
+  Foam::fvVectorMatrix deferred(plain);
+  deferCentralDifferences(deferred, flow.U(), nu);
+  const Foam::vectorField same((plain & flow.U())().primitiveField() - (deferred & flow.U())().primitiveField());
+  EXPECT_LT(Foam::gMax(mag(same)()), 1e-10) << "the scheme at the last iterate";
+  forAll(flow.U(), celli) {
+    flow.U()[celli] += Foam::vector(celli % 3, celli % 5, celli % 7);
+  }
+  flow.U().correctBoundaryConditions();
+  const Foam::vectorField change((plain & flow.U())().primitiveField() - (deferred & flow.U())().primitiveField());
+  EXPECT_GT(Foam::gMax(mag(change)()), 1) << "nothing was deferred";
+  EXPECT_LT(mag(Foam::gSum((change * mesh.V().field())())), 1e-12 * Foam::gSum((mag(change) * mesh.V().field())()));
+
+  for (const bool dominant : {false, true}) {
+    const Foam::fvVectorMatrix& matrix = dominant ? deferred : plain;
+    // Row by row with the time derivative; the coupled patches add their share to both sides.
+    Foam::scalarField slack(matrix.diag() + mesh.V().field() / mesh.time().deltaTValue());
+    forAll(matrix.upper(), facei) {
+      slack[mesh.owner()[facei]] -= std::abs(matrix.upper()[facei]);
+      slack[mesh.neighbour()[facei]] -= std::abs(matrix.lower()[facei]);
+    }
+    forAll(mesh.boundary(), patchi) {
+      const Foam::labelUList& cells = mesh.boundary()[patchi].faceCells();
+      forAll(cells, i) {
+        slack[cells[i]] += matrix.internalCoeffs()[patchi][i].x() - std::abs(matrix.boundaryCoeffs()[patchi][i].x());
+      }
+    }
+    // 100 times the viscous coefficients, small here, may be counted on.
+    const Foam::scalar viscous = 0.5 * Foam::gMin(mesh.V().field()) / mesh.time().deltaTValue();
+    EXPECT_EQ(Foam::gMin(slack) >= -viscous, dominant) << Foam::gMin(slack);
+  }
+}
+
 TEST(Momentum, BalancesWhileTheFractionMoves) {
   // Impulse: of the particles, and of the pressure on the fluid's share of each cell. Iterated to convergence, so that
   // what is left is what the lagged fluxes withheld, and that is accounted for.
@@ -227,15 +278,42 @@ TEST(Restart, ContinuesTheStraightRun) {
   EXPECT_NEAR(flow_case.flow().drivingPressureGradient(), G, 1e-6 * G);
 }
 
+/// Library of the models for a stock solver.
+std::string with_library() {
+  return "LD_LIBRARY_PATH=" + std::string(std::getenv("ECCENTRA_LIB")) + ":$LD_LIBRARY_PATH ";
+}
+
 /// What stock pimpleFoam computes after some steps.
 Foam::vectorField stock(FlowCase& flow_case, const std::string& last) {
   flow_case.dictionary("constant/turbulenceProperties", "simulationType laminar;\n");
-  const Outcome outcome = run_program(flow_case.folder(), "pimpleFoam");
+  const Outcome outcome = run_program(flow_case.folder(), with_library() + "pimpleFoam");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   const Foam::volVectorField U(Foam::IOobject("U", Foam::word(last), flow_case.mesh(), Foam::IOobject::MUST_READ,
                                               Foam::IOobject::NO_WRITE, false),
                                flow_case.mesh());
   return U.primitiveField();
+}
+
+TEST(FractionOne, IsStockPimpleFoamWithAHerschelBulkleyFluid) {
+  // Both average the viscosities of the cells, those of the last step.
+  for (const std::string scheme : {"Euler", "backward"}) {
+    for (const bool coupled : {false, true}) {
+      FlowCase flow_case("stock_mud_" + scheme + (coupled ? "_coupled" : ""));
+      flow_case.control({{"deltaT", "0.002"},
+                         {"endTime", "0.04"},
+                         {"writeInterval", "20"},
+                         {"libs", "(\"libeccentraRheology.so\")"}});
+      flow_case.numerics(scheme, "nCorrectors 2; consistent yes; pRefCell 0; pRefValue 0;");
+      annulus(flow_case, 0.5, "type none;");
+      flow_case.fluid("HerschelBulkleyCapped", 1000, "tau0 1; k 0.28; n 0.65; muY 1;", "faceViscosity interpolated;");
+      flow_case.flow(coupled ? averagedFlow::particles::coupled : averagedFlow::particles::none);
+      flow_case.advance(20);
+      const Foam::vectorField ours(flow_case.flow().U().primitiveField());
+      const double speed = Foam::gMax(mag(ours)());
+      EXPECT_GT(speed, 0.01);
+      EXPECT_LT(largest_difference(ours, stock(flow_case, "0.04")), 1e-8 * speed) << scheme << ", coupled " << coupled;
+    }
+  }
 }
 
 TEST(FractionOne, IsStockPimpleFoam) {

@@ -148,11 +148,11 @@ void FlowCase::annulus_mesh(double eccentricity, int radial, int around, int axi
   make_mesh(folder_, program_path("annulusMesh"));
 }
 
-void FlowCase::fluid(const std::string& model, double rho, const std::string& coefficients) {
+void FlowCase::fluid(const std::string& model, double rho, const std::string& coefficients, const std::string& more) {
   std::ostringstream text;
   text << "transportModel " << model << ";\nrho " << rho << ";\n"
        << model << "Coeffs { " << coefficients << " }\n"
-       << (model == "Newtonian" ? coefficients : "") << "\n";
+       << (model == "Newtonian" ? coefficients : "") << more << "\n";
   dictionary("constant/transportProperties", text.str());
 }
 

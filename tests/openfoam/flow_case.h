@@ -46,7 +46,8 @@ class FlowCase {
   /// Periodic annulus of the paper (hole 63.5 mm, pipe 24.13 mm).
   void annulus_mesh(double eccentricity, int radial, int around, int axial, double length = 0.05,
                     double wall_grading = 1);
-  void fluid(const std::string& model, double rho, const std::string& coefficients);
+  /// more: further entries of transportProperties.
+  void fluid(const std::string& model, double rho, const std::string& coefficients, const std::string& more = "");
   void newtonian(double rho, double mu);
   void drive(const std::string& entries) { dictionary("constant/flowProperties", "drive { " + entries + " }\n"); }
   /// U: internal value and boundary entries; p: zero with these boundary entries.
