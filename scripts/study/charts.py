@@ -9,6 +9,7 @@ import math
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999999")
 WIDTH, HEIGHT = 460, 330  # of a panel
 LEFT, RIGHT, TOP, BOTTOM = 66, 14, 34, 48
+LINE = 14  # height of a line of the legend
 LETTER = 5.6  # mean width of a letter at the size of labels
 
 
@@ -50,7 +51,7 @@ class Panel:
 def _ticks(low, high, log):
     if log:
         first, last = math.floor(math.log10(low) + 1e-9), math.ceil(math.log10(high) - 1e-9)
-        parts = (1, 2, 5) if last - first <= 2 else (1,)
+        parts = (1, 2, 5) if high / low < 500 else (1,)
         return [m * 10.0**d for d in range(first, last + 1) for m in parts if low <= m * 10.0**d * 1.0000001 and m * 10.0**d <= high * 1.0000001]
     span = high - low
     step = 10 ** math.floor(math.log10(span / 4))
@@ -94,23 +95,27 @@ class _Labels:
         return left, top + high - 3
 
 
-def _panel(panel, out, x0, y0):
+def _panel(panel, out, left, top):
     points = [p for s in panel.series for p in s.points]
     ys = [p.y for p in points] + [p.y + p.error for p in points if not math.isnan(p.error)]
     ys += [p.y - p.error for p in points if not math.isnan(p.error) and (not panel.log_y or p.y - p.error > 0.3 * p.y)]
     xlow, xhigh = _range([p.x for p in points], panel.log_x)
     ylow, yhigh = _range(ys + ([panel.band[0]] if panel.band else []), panel.log_y, panel.floor)
     inner_w, inner_h = WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM
+    named = [s for s in panel.series if s.name] if panel.legend else []
+    if named:  # room above the points
+        free = 1 - (LINE * len(named) + 8) / inner_h
+        yhigh = ylow * (yhigh / ylow) ** (1 / free) if panel.log_y else ylow + (yhigh - ylow) / free
     scale = lambda v, low, high, log: (math.log(v / low) / math.log(high / low)) if log else (v - low) / (high - low)
     at_x = lambda v: LEFT + inner_w * scale(v, xlow, xhigh, panel.log_x)
     clip = lambda v: min(max(v, ylow), yhigh)
     at_y = lambda v: TOP + inner_h * (1 - scale(clip(v), ylow, yhigh, panel.log_y))
     say = lambda x, y, words, extra="": out.append(f'<text x="{x:.1f}" y="{y:.1f}" {extra}>{html.escape(words)}</text>')
-    out.append(f'<g transform="translate({x0},{y0})">')
+    out.append(f'<g transform="translate({left},{top})">')
     say(WIDTH / 2, 18, panel.title, 'text-anchor="middle" font-weight="bold"')
     if panel.band:
-        top = at_y(panel.band[0])
-        out.append(f'<rect x="{LEFT}" y="{top:.1f}" width="{inner_w}" height="{TOP + inner_h - top:.1f}" fill="#eeeeee"/>')
+        edge = at_y(panel.band[0])
+        out.append(f'<rect x="{LEFT}" y="{edge:.1f}" width="{inner_w}" height="{TOP + inner_h - edge:.1f}" fill="#eeeeee"/>')
         say(LEFT + inner_w - 4, TOP + inner_h - 5, panel.band[1], 'text-anchor="end" font-size="10" fill="#666"')
     for v in _ticks(xlow, xhigh, panel.log_x):
         out.append(f'<line x1="{at_x(v):.1f}" x2="{at_x(v):.1f}" y1="{TOP}" y2="{TOP + inner_h}" stroke="#ddd"/>')
@@ -122,8 +127,14 @@ def _panel(panel, out, x0, y0):
     say(LEFT + inner_w / 2, HEIGHT - 14, panel.x, 'text-anchor="middle"')
     say(0, 0, panel.y, f'text-anchor="middle" transform="translate(14,{TOP + inner_h / 2}) rotate(-90)"')
     labels = _Labels(WIDTH, HEIGHT)
-    for p in points:
-        labels.take(at_x(p.x), at_y(p.y))
+    for s in panel.series:
+        seen = [(at_x(p.x), at_y(p.y)) for p in s.points if math.isfinite(p.y) and (p.y > 0 or not panel.log_y)]
+        for p in s.points if s.marks else []:
+            labels.take(at_x(p.x), at_y(p.y), *((20, 20) if p.ring else (9, 9)))
+        for (x0, y0), (x1, y1) in zip(seen, seen[1:]) if s.line else []:
+            parts = max(1, int(math.dist((x0, y0), (x1, y1)) / 6))
+            for k in range(parts):
+                labels.take(x0 + (x1 - x0) * k / parts, y0 + (y1 - y0) * k / parts, 5, 5)
     for s in panel.series:
         seen = [p for p in s.points if math.isfinite(p.y) and (p.y > 0 or not panel.log_y)]
         if s.line and len(seen) > 1:
@@ -146,12 +157,10 @@ def _panel(panel, out, x0, y0):
             if p.label:
                 x, y = labels.place(at_x(p.x), at_y(p.y), p.label)
                 say(x, y, p.label, f'font-size="11" fill="{s.colour}"')
-    if panel.legend:
-        named = [s for s in panel.series if s.name]
-        for k, s in enumerate(named):
-            y = TOP + 14 + 14 * k
-            out.append(f'<rect x="{LEFT + 8}" y="{y - 8}" width="10" height="8" fill="{s.colour}"/>')
-            say(LEFT + 22, y, s.name, 'font-size="11"')
+    for k, s in enumerate(named):
+        y = TOP + LINE * (k + 1)
+        out.append(f'<rect x="{LEFT + 8}" y="{y - 8}" width="10" height="8" fill="{s.colour}"/>')
+        say(LEFT + 22, y, s.name, 'font-size="11"')
     out.append("</g>")
 
 
@@ -160,10 +169,11 @@ def write(path, title, panels, columns=3):
     columns = min(columns, len(panels))
     rows = math.ceil(len(panels) / columns)
     width, height = columns * WIDTH, rows * HEIGHT + 30
+    title_size = min(15, 1.7 * width / len(title))
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}" '
            'font-family="DejaVu Sans, Verdana, sans-serif" font-size="12">',
            f'<rect width="{width}" height="{height}" fill="white"/>',
-           f'<text x="{width / 2}" y="20" text-anchor="middle" font-size="15">{html.escape(title)}</text>']
+           f'<text x="{width / 2}" y="20" text-anchor="middle" font-size="{title_size:.1f}">{html.escape(title)}</text>']
     for k, panel in enumerate(panels):
         _panel(panel, out, k % columns * WIDTH, 30 + k // columns * HEIGHT)
     out.append("</svg>\n")

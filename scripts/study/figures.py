@@ -8,7 +8,6 @@ from . import charts, ladders, levels, tables
 from .ladders import Point, larger
 
 SPHERICITY = {"cube": 0.85, "disk": 0.79}  # Table 1
-SIGNS = {1: "more", -1: "less", 0: "not told apart from", None: "not compared with"}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -24,15 +23,8 @@ class Plan:
     estimates: tuple
 
 
-class Figure:
-    """One figure: points() to run, then series and words from the ladders' values."""
-
-    def __init__(self, number, title, says, x, make, find):
-        self.number, self.title, self.says, self.x, self.make, self.find = number, title, says, x, make, find
-
-
-def pairs(values, of, by, names=str):
-    """Sentences that compare neighbours: values {key: Value}, sorted within groups."""
+def pairs(values, of, by):
+    """Neighbours compared: (group, a, b, larger(b, a)) for values {key: Value}, sorted by `by` within the groups `of`."""
     told = []
     for group in dict.fromkeys(of(k) for k in values):
         keys = sorted((k for k in values if of(k) == group), key=by)
@@ -181,6 +173,12 @@ def vertical(at):
 
 def panel(number, series, values):
     shown = []
+    if number == 11:  # levels side by side
+        for k, u in enumerate(dict.fromkeys(x for points in series.values() for x, _ in points)):
+            made = [charts.Point(place, 100 * values[p].value, 100 * values[p].error, name, bound=values[p].bound)
+                    for place, (name, points) in enumerate(series.items()) for x, p in points if x == u]
+            shown.append(charts.Series(f"{u} m/s", made, charts.COLOURS[k]))
+        return charts.Panel(f"Figure {number}: {TITLES[number]}", "level of detail, from C8 to D48", "C at the injected flux [%]", shown, floor=0)
     for k, (name, points) in enumerate(series.items()):
         if number in (13, 14) and "turning" in name:
             continue

@@ -137,11 +137,11 @@ HEADER = ["level", "inclination_deg", "velocity_m_per_s", "rpm", "mu_shape", "co
           "is_lower_bound", "slides_back", "failed", "rung_concentration", "rung_flux_m3_per_s", "rung_flux_standard_error"]
 
 
-def table(values, columns):
-    """values: {(row, column): Value}."""
-    rows = list(dict.fromkeys(r for r, _ in values))
-    return ["", *columns], [[str(r), *(values[r, c].words() if (r, c) in values else "" for c in columns)] for r in rows]
-
-
-def fluxes(value):
-    return ", ".join(f"{100 * c:.2g} %: {tables.number(1e6 * flux, 2)}" for c, flux, _ in value.rungs)
+def long_table(series, values, x):
+    """One row per point, with the flux of each rung. series: {name: [(x, Point)]}."""
+    rows = []
+    for name, points in series.items():
+        for at, p in points:
+            fluxes = ", ".join(f"{100 * c:.0f} %: {tables.number(1e6 * flux, 2)}" for c, flux, _ in values[p].rungs)
+            rows.append([name, "cluster" if math.isnan(at) else f"{at:.4g}", values[p].words(), fluxes])
+    return ["", x, "C at the injected flux", "flux at a filling [1e-6 m3/s]"], rows

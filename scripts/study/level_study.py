@@ -159,7 +159,7 @@ class Study:
         for body, (dry_levels, wet_levels) in plan.items():
             for scene in dry.SCENES:
                 for level in dry_levels if scene in self.scenes else ():
-                    for seed in dry.SEEDS[: self.seeds]:
+                    for seed in dry.SEEDS[: self.seeds * dry.MORE_SEEDS.get(scene, 1)]:
                         jobs[body, scene, level.name, seed] = self.dry(scene, level, seed)
             for point in self.size.points if "section" in self.scenes else ():
                 for level in wet_levels:

@@ -56,12 +56,16 @@ def estimate_of(words, spheres):
     return fluid_steps * cells * 2.2e-6 + dem_steps * int(words["count"]) * 2.5e-7 * (1 + 0.7 * (spheres > 1) + 0.03 * spheres) + 1
 
 
+def case_digest():
+    """Of all that the case's files say."""
+    return runs.digest_of(CASE / "in.cuttings", CASE.parent / "run-coupled", *sorted((CASE / "system").iterdir()), *sorted((CASE / "constant").iterdir()))
+
+
 def section_job(build, name, words, share=0.5, spheres=1, keep=None):
     """A run with options of the case's `run` (without --); the result: means over the last `share` of it with their standard
     errors in time, the end of the run, time and its parts. `keep`: name under which the case stays in the job's folder."""
-    files = [CASE / "in.cuttings", CASE.parent / "run-coupled", *sorted((CASE / "system").iterdir()), *sorted((CASE / "constant").iterdir())]
     described = {key: shape_key(value) if key == "shape" else str(value) for key, value in words.items()}
-    inputs = {"what": "section", "case": runs.digest_of(*files), **described, "share": share, **({"keep": keep} if keep else {})}
+    inputs = {"what": "section", "case": case_digest(), **described, "share": share, **({"keep": keep} if keep else {})}
 
     def work(folder):
         case = folder / (keep or "case")

@@ -185,12 +185,33 @@ class Scripts(unittest.TestCase):
                 ("paper", ["--jobs", "0"], "--jobs is 0: give 1 or more"),
                 ("paper", ["--figures", "8"], "invalid choice: '8'"),
                 ("paper", ["--measured", "/nowhere.csv"], "--measured /nowhere.csv: "),
-                ("paper", ["--build", "/nowhere"], "there is no /nowhere/bin/eccentra-dem: build it with")):
+                ("paper", ["--build", "/nowhere"], "there is no /nowhere/bin/eccentra-dem: build it with"),
+                ("full-scene", ["--build", "/nowhere"], "there is no /nowhere/bin/eccentra-dem: build it with")):
             with self.subTest(f"{script} {' '.join(words)}"):
                 said = run(script, *words)
                 self.assertNotEqual(said.returncode, 0)
                 self.assertIn(says, said.stderr)
                 self.assertNotIn("Traceback", said.stderr)
+
+
+class Page(unittest.TestCase):
+    def test_results_page_takes_the_largest_study_and_its_charts(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            (root / "docs").mkdir()
+            script = [ROOT / "scripts" / "results", "--results", root, "--docs", root / "docs"]
+            empty = subprocess.run(script, capture_output=True, text=True)
+            self.assertNotEqual(empty.returncode, 0)
+            self.assertIn("run scripts/accuracy-cost --quick first", empty.stderr)
+            for name in ("accuracy-cost", "accuracy-cost-quick"):
+                (root / name).mkdir()
+                (root / name / "results.md").write_text(f"from {name}\n![c](levels-cube.svg)\n")
+                (root / name / "levels-cube.svg").write_text("<svg/>")
+            self.assertEqual(subprocess.run(script, capture_output=True).returncode, 0)
+            page = (root / "docs" / "results.md").read_text()
+            self.assertIn("from accuracy-cost\n![c](results-levels-cube.svg)", page)
+            self.assertIn("Not run yet: `scripts/paper --quick`", page)
+            self.assertTrue((root / "docs" / "results-levels-cube.svg").is_file())
 
 
 if __name__ == "__main__":
