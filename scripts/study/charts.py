@@ -52,7 +52,8 @@ def _ticks(low, high, log):
     if log:
         first, last = math.floor(math.log10(low) + 1e-9), math.ceil(math.log10(high) - 1e-9)
         parts = (1, 2, 5) if high / low < 500 else (1,)
-        return [m * 10.0**d for d in range(first, last + 1) for m in parts if low <= m * 10.0**d * 1.0000001 and m * 10.0**d <= high * 1.0000001]
+        ticks = [m * 10.0**d for d in range(first, last + 1) for m in parts]
+        return [t for t in ticks if low <= t * (1 + 1e-7) and t <= high * (1 + 1e-7)]
     span = high - low
     step = 10 ** math.floor(math.log10(span / 4))
     step = next(step * m for m in (1, 2, 5, 10) if span / (step * m) <= 6)

@@ -68,8 +68,8 @@ class Figures:
             return {f"{level.name}, {u} m/s": [(i, Point(level, i, u)) for i in plan.inclinations]
                     for level in (self.s1, self.s6) for u in plan.velocities}
         if number == 10:
-            return {name: [(u, Point(level, 80, u)) for u in plan.shape_velocities]
-                    for name, level in (("disk D48", self.reference["disk"]), ("cube C64", self.reference["cube"]), ("sphere S1", self.s1))}
+            shapes = {"disk D48": self.reference["disk"], "cube C64": self.reference["cube"], "sphere S1": self.s1}
+            return {name: [(u, Point(level, 80, u)) for u in plan.shape_velocities] for name, level in shapes.items()}
         if number == 11:
             names = (("cube", "C8"), ("cube", "C27"), ("cube", "C64"), ("disk", "D7"), ("disk", "D19"), ("disk", "D48"))
             return {name: [(u, Point(self.of[body][name], 80, u)) for u in plan.coarse_velocities] for body, name in names}
@@ -92,7 +92,8 @@ class Figures:
 
 
 SAYS = {
-    7: "C rises with inclination and falls with velocity; S6 gives what S1 gives; deviation from Tomren's measurements below 25 % at 0.58 m/s.",
+    7: "C rises with inclination and falls with velocity; S6 gives what S1 gives; deviation from Tomren's measurements below 25 % "
+       "at 0.58 m/s.",
     10: "C falls with velocity; disk >= cube >= sphere.",
     11: "Fewer sub-spheres (C8, C27 for C64; D7, D19 for D48) give no growing deviation.",
     12: "Spheres approach the cluster result as the rolling coefficient grows.",
@@ -102,6 +103,7 @@ SAYS = {
 TITLES = {7: "concentration against inclination, S1 and S6", 10: "concentration against velocity by shape, 80 degrees",
           11: "coarser clusters, 80 degrees", 12: "rolling coefficient against clusters, 80 degrees",
           13: "effect of mu_shape, disk", 14: "effect of mu_shape, cube"}
+WANTED = "C at the injected flux [%]"
 X = {7: "inclination [degrees]", 10: "velocity [m/s]", 11: "velocity [m/s]", 12: "mu_shape", 13: "inclination [degrees]",
      14: "inclination [degrees]"}
 
@@ -145,7 +147,8 @@ def finds(number, series, values):
         told.append(count(turned, -1, "Rotation lowers C"))
     back = sorted({p.name() for points in series.values() for _, p in points if values[p].slides})
     if back:
-        told.append(f"The solids slide back down the hole at {len(back)} points, which a periodic section lets go on for ever: " + "; ".join(back) + ".")
+        told.append(f"At some filling the solids slide back down the hole, which a periodic section lets go on for ever, at {len(back)} points: "
+                    + "; ".join(back) + ".")
     return " ".join(t for t in told if t)
 
 
@@ -156,7 +159,8 @@ def against(a, b):
         return "not compared with"
     if a.bound and b.bound:
         relation = {1: "carries less than", -1: "carries more than", 0: "carries what is not told apart from"}[sign]
-        return f"{relation} (flux of the top rung {tables.number(1e6 * a.rungs[-1][1], 2)} against {tables.number(1e6 * b.rungs[-1][1], 2)}e-6 m3/s)"
+        x, y = (tables.number(1e6 * v.rungs[-1][1], 2) for v in (a, b))
+        return f"{relation} (flux of the top rung {x} against {y} e-6 m3/s)"
     relation = {1: "more than", -1: "less than", 0: "not told apart from"}[sign]
     return f"{relation} ({a.words()} against {b.words()})"
 
@@ -178,11 +182,12 @@ def panel(number, series, values):
             made = [charts.Point(place, 100 * values[p].value, 100 * values[p].error, name, bound=values[p].bound)
                     for place, (name, points) in enumerate(series.items()) for x, p in points if x == u]
             shown.append(charts.Series(f"{u} m/s", made, charts.COLOURS[k]))
-        return charts.Panel(f"Figure {number}: {TITLES[number]}", "level of detail, from C8 to D48", "C at the injected flux [%]", shown, floor=0)
+        return charts.Panel(f"Figure {number}: {TITLES[number]}", "level of detail, from C8 to D48", WANTED, shown, floor=0)
     for k, (name, points) in enumerate(series.items()):
         if number in (13, 14) and "turning" in name:
             continue
-        made = [charts.Point(x, 100 * values[p].value, 100 * values[p].error, bound=values[p].bound) for x, p in points if not math.isnan(x)]
+        made = [charts.Point(x, 100 * values[p].value, 100 * values[p].error, bound=values[p].bound)
+                for x, p in points if not math.isnan(x)]
         colour = charts.COLOURS[k % len(charts.COLOURS)]
         shown.append(charts.Series(name, made, colour, True))
         for x, p in points:  # a cluster beside spheres of any coefficient: a level line
@@ -191,7 +196,7 @@ def panel(number, series, values):
                 level = 100 * values[p].value
                 shown[-1] = charts.Series(name + (" (lower bound)" if values[p].bound else ""),
                                           [charts.Point(min(ends), level), charts.Point(max(ends), level)], colour, True, False, True)
-    return charts.Panel(f"Figure {number}: {TITLES[number]}", X[number], "C at the injected flux [%]", shown, floor=0)
+    return charts.Panel(f"Figure {number}: {TITLES[number]}", X[number], WANTED, shown, floor=0)
 
 
 def flux_panel(number, series, values):
@@ -200,6 +205,6 @@ def flux_panel(number, series, values):
     for k, (name, points) in enumerate(series.items()):
         for x, p in points:
             rungs = [charts.Point(100 * c, 1e6 * flux, 1e6 * error) for c, flux, error in values[p].rungs]
-            shown.append(charts.Series(name if x == points[0][0] or math.isnan(x) else "", rungs, charts.COLOURS[k % len(charts.COLOURS)], True,
-                                       dashed=x != points[0][0]))
+            named = name if x == points[0][0] or math.isnan(x) else ""
+            shown.append(charts.Series(named, rungs, charts.COLOURS[k % len(charts.COLOURS)], True, dashed=not named))
     return charts.Panel(f"Figure {number}: flux carried by a filling", "solid concentration [%]", "solids flux [1e-6 m3/s]", shown)

@@ -103,7 +103,8 @@ class Group:
                         f"{best.deviation_error:.1%}), at {tables.number(best.cpu / reference.cpu, 2)} of the time.")
         plain = next((row for row in rows if row.level.kind == "sphere"), None)
         if plain and plain is not best:
-            text.append(f"The plain sphere is off by {plain.deviation:+.0%} at {tables.number(plain.cpu / reference.cpu, 2)} of the time.")
+            ratio = tables.number(plain.cpu / reference.cpu, 2)
+            text.append(f"The plain sphere is off by {plain.deviation:+.0%} at {ratio} of the time.")
         front, bend = self.front()
         if bend:
             text.append(f"The knee of the Pareto front is {bend.level.name}: beyond it time buys little.")
@@ -166,8 +167,9 @@ class Study:
                     for seed in section.SEEDS[: self.seeds]:
                         jobs[body, point, level.name, seed] = self.wet(body, point, level, seed)
         results = {}
-        for title, wet in (("dry scenes", False), ("annulus", True)):  # the cheap ones first: an interrupted study shows them
-            results |= self.store.run_all(title, [job for (_, place, _, _), job in jobs.items() if (place not in dry.SCENES) == wet])
+        for place in dict.fromkeys(place for _, place, _, _ in jobs):  # one after the other: what is complete can be shown
+            title = place if place in dry.SCENES else f"annulus {place[0]} degrees, {place[1]} m/s"
+            results |= self.store.run_all(title, [job for (_, at, _, _), job in jobs.items() if at == place])
         of = {key: results[job.key()] for key, job in jobs.items()}
         for body, (dry_levels, wet_levels) in plan.items():
             for scene, (what, unit, *_) in dry.SCENES.items():
@@ -217,7 +219,8 @@ class Study:
 
     def write(self):
         """Table, CSV and charts; returns paragraphs of the page."""
-        header = ["level", "result", "+-", "deviation %", "+-", "CPU s", "contact", "integr.", "neighb.", "fluid", "link", "other", "step 1e-5 s"]
+        header = ["level", "result", "+-", "deviation %", "+-", "CPU s", "contact", "integr.", "neighb.", "fluid", "link", "other",
+                  "step 1e-5 s"]
         lines, cells, page = [], [], ["## Levels of detail\n"]
         for group in self.groups:
             table = [[row.level.name, row.value, row.error, 100 * row.deviation, 100 * row.deviation_error, row.cpu,
@@ -241,9 +244,9 @@ class Study:
         text = "\n".join(lines)
         (self.output / "levels.txt").write_text(text)
         print(text)
-        tables.write_csv(self.output / "levels.csv", ["scene", "body", "result", "unit", "level", "mean", "standard_error", "runs", "deviation",
-                         "deviation_error", "cpu_s", "wall_s", *(f"{part}_s" for part in timing.PARTS), "step_s", "critical_step_s",
-                         "contacts_at_critical", "failed"], cells)
+        columns = ["scene", "body", "result", "unit", "level", "mean", "standard_error", "runs", "deviation", "deviation_error", "cpu_s",
+                   "wall_s", *(f"{part}_s" for part in timing.PARTS), "step_s", "critical_step_s", "contacts_at_critical", "failed"]
+        tables.write_csv(self.output / "levels.csv", columns, cells)
         for body in self.bodies:
             panels = [group.panel() for group in self.groups if group.body == body and group.judged and group.candidates()]
             if panels:
@@ -267,7 +270,8 @@ class Study:
                     if of is None:
                         row.append("")
                     elif of is group.rows[-1]:
-                        row.append(f"{tables.number(of.value)} +- {tables.number(of.error, 2)} {group.unit}; {tables.number(of.cpu, 2)} s")
+                        value, error = tables.number(of.value), tables.number(of.error, 2)
+                        row.append(f"{value} +- {error} {group.unit}; {tables.number(of.cpu, 2)} s")
                     elif math.isnan(of.deviation):
                         row.append("failed")
                     else:

@@ -46,19 +46,23 @@ def effect(rows, name):
 
 def compare(rows, values, drawn):
     """Lines of the page: measured effects beside ours."""
-    lines = [f"## Measured: {SOURCE}\n", "Pairs of runs that differ in one setting alone. Size and density of the cuttings are not in the file, so only sign and "
-             "order of the effects can be compared.\n", "| effect of | pairs | C falls | C rises | median ratio of C |", "|---|---|---|---|---|"]
+    lines = [f"## Measured: {SOURCE}\n",
+             "Pairs of runs that differ in one setting alone. Size and density of the cuttings are not in the file, so only sign and order of "
+             "the effects can be compared.\n",
+             "| effect of | pairs | C falls | C rises | median ratio of C |", "|---|---|---|---|---|"]
     for name, word in EFFECTS.items():
         pairs, falls, rises, ratio = effect(rows, name)
         lines.append(f"| more {word} | {pairs} | {falls} | {rises} | {'-' if math.isnan(ratio) else f'{ratio:.2f}'} |")
-    ours = {"flow rate": lambda p: (p.level.name, p.inclination, p.rpm, p.sphericity), "rotation": lambda p: (p.level.name, p.inclination, p.velocity, p.sphericity),
+    ours = {"flow rate": lambda p: (p.level.name, p.inclination, p.rpm, p.sphericity),
+            "rotation": lambda p: (p.level.name, p.inclination, p.velocity, p.sphericity),
             "inclination": lambda p: (p.level.name, p.velocity, p.rpm, p.sphericity)}
     by = {"flow rate": lambda p: p.velocity, "rotation": lambda p: p.rpm, "inclination": lambda p: p.inclination}
     from .figures import pairs as neighbours  # here: figures need no measured data
-    lines += ["", "Ours, over all points above that differ in one setting alone:\n", "| effect of | pairs | C falls | C rises | not told apart |",
-              "|---|---|---|---|---|"]
+    lines += ["", "Ours, over all points above that differ in one setting alone:\n",
+              "| effect of | pairs | C falls | C rises | not told apart |", "|---|---|---|---|---|"]
     inclined = {p: v for p, v in values.items() if p.inclination >= 40}
     for word, of in ours.items():
         told = [t for t in neighbours(inclined if word != "inclination" else values, of, by[word]) if t[3] is not None]
-        lines.append(f"| more {word} | {len(told)} | {sum(t[3] == -1 for t in told)} | {sum(t[3] == 1 for t in told)} | {sum(t[3] == 0 for t in told)} |")
+        falls, rises, same = (sum(t[3] == sign for t in told) for sign in (-1, 1, 0))
+        lines.append(f"| more {word} | {len(told)} | {falls} | {rises} | {same} |")
     return lines + [""]

@@ -9,7 +9,7 @@ from . import charts, measures, section, tables
 LENGTH, CONCENTRATION, VELOCITY = 0.15, 0.05, 0.58
 DEM_STEP = 5e-3 / 64
 BASE = {"velocity": VELOCITY, "length": LENGTH, "cells": "8 32 10", "fluid_step": 5e-3, "interval": 64}
-RESULTS = {"gradient": ("pressure gradient", "Pa/m", 1.0), "flux": ("solids flux", "1e-6 m3/s", 1e6), "height": ("solids' centre", "mm", 1e3)}
+RESULTS = ("gradient", "flux", "height")  # of section.QUANTITIES
 
 
 @dataclasses.dataclass(frozen=True)
@@ -40,7 +40,8 @@ def families(finest):
         "fluid step": ("fluid step = coupling interval, drag semi-implicit or explicit in the fluid",
                        _fluid_steps("semiImplicit") | explicit, "1 ms"),
         "DEM step": ("DEM step", dem, list(dem)[-1]),
-        "void fraction": ("void-fraction method", {w: {"void-fraction": w} for w in ("centre", "divided", "gaussian", "diffusion")}, "diffusion"),
+        "void fraction": ("void-fraction method", {w: {"void-fraction": w} for w in ("centre", "divided", "gaussian", "diffusion")},
+                          "diffusion"),
         "regularisation": ("largest viscosity [Pa s] at tau0 = 1 Pa, and the model", viscosities, "capped 1000"),
     }
 
@@ -108,8 +109,8 @@ class Study:
         text = "\n".join(lines)
         (self.output / "methods.txt").write_text(text)
         print(text)
-        tables.write_csv(self.output / "methods.csv",
-                         ["inclination", "family", "method", "quantity", "mean_si", "standard_error", "deviation", "deviation_error", "cpu_s", "failed"],
+        columns = ["inclination", "family", "method", "quantity", "mean_si", "standard_error", "deviation", "deviation_error", "cpu_s", "failed"]
+        tables.write_csv(self.output / "methods.csv", columns,
                          [[r["inclination"], r["family"], r["name"], r["quantity"], *r["value"], *r["deviation"], r["cpu"], r["failed"]]
                           for r in self.rows])
         charts.write(self.output / "methods.svg", "What the methods of the coupling cost and change "

@@ -58,7 +58,8 @@ def estimate_of(words, spheres):
 
 def case_digest():
     """Of all that the case's files say."""
-    return runs.digest_of(CASE / "in.cuttings", CASE.parent / "run-coupled", *sorted((CASE / "system").iterdir()), *sorted((CASE / "constant").iterdir()))
+    settings = [file for folder in ("system", "constant") for file in sorted((CASE / folder).iterdir())]
+    return runs.digest_of(CASE / "in.cuttings", CASE.parent / "run-coupled", *settings)
 
 
 def section_job(build, name, words, share=0.5, spheres=1, keep=None):
