@@ -278,15 +278,10 @@ TEST(Restart, ContinuesTheStraightRun) {
   EXPECT_NEAR(flow_case.flow().drivingPressureGradient(), G, 1e-6 * G);
 }
 
-/// Library of the models for a stock solver.
-std::string with_library() {
-  return "LD_LIBRARY_PATH=" + std::string(std::getenv("ECCENTRA_LIB")) + ":$LD_LIBRARY_PATH ";
-}
-
 /// What stock pimpleFoam computes after some steps.
 Foam::vectorField stock(FlowCase& flow_case, const std::string& last) {
   flow_case.dictionary("constant/turbulenceProperties", "simulationType laminar;\n");
-  const Outcome outcome = run_program(flow_case.folder(), with_library() + "pimpleFoam");
+  const Outcome outcome = run_program(flow_case.folder(), stock_solver("pimpleFoam"));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   const Foam::volVectorField U(Foam::IOobject("U", Foam::word(last), flow_case.mesh(), Foam::IOobject::MUST_READ,
                                               Foam::IOobject::NO_WRITE, false),

@@ -16,6 +16,10 @@ namespace eccentra::test {
 
 namespace fs = std::filesystem;
 
+std::string stock_solver(const std::string& name) {
+  return "LD_LIBRARY_PATH=$ECCENTRA_LIB:$LD_LIBRARY_PATH LD_PRELOAD=$ECCENTRA_SANITIZER_LIBRARY " + name;
+}
+
 Outcome run_program(const std::string& folder, const std::string& command) {
   const std::string line = "cd '" + folder + "' && " + command + " 2>&1";
   FILE* pipe = popen(line.c_str(), "r");

@@ -25,6 +25,9 @@ struct Outcome {
 /// Runs a command of a shell in this folder and waits for it.
 Outcome run_program(const std::string& folder, const std::string& command);
 
+/// The command of a stock solver that may load our libraries; the sanitizers' own library, if any, comes first.
+std::string stock_solver(const std::string& name);
+
 /// Relative to the run folder of the test. The folder is emptied first.
 class FlowCase {
  public:

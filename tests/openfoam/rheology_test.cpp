@@ -100,9 +100,7 @@ TEST(HerschelBulkleyModel, StockPimpleFoamSelectsIt) {
     flow_case.numerics("Euler", "nCorrectors 1; pRefCell 0; pRefValue 0;");
     couette(flow_case, model, 10);
     flow_case.dictionary("constant/turbulenceProperties", "simulationType laminar;\n");
-    const std::string library = std::getenv("ECCENTRA_LIB");
-    const Outcome outcome =
-        run_program(flow_case.folder(), "LD_LIBRARY_PATH=" + library + ":$LD_LIBRARY_PATH pimpleFoam && cat 0.002/nu");
+    const Outcome outcome = run_program(flow_case.folder(), stock_solver("pimpleFoam") + " && cat 0.002/nu");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
     const size_t at = outcome.text.find("internalField");
     ASSERT_NE(at, std::string::npos);
