@@ -4,6 +4,7 @@
 #include "fluid/fix_fluid_couple.h"
 
 #include "host/style_registry.h"
+#include "link/stop_signal.h"
 
 #include <mpi.h>
 
@@ -31,6 +32,7 @@ namespace {
 const host::RegisterFix<FixFluidCouple> kRecord("fluid/couple", "meets a fluid solver every N steps");
 
 constexpr int kTicketDoubles = 2;
+constexpr int kForceDoubles = 6;
 /// Entries of the vector of stock fix insert/*.
 constexpr int kInsertedNumber = 0;
 constexpr int kInsertedMass = 1;
@@ -45,13 +47,20 @@ FixFluidCouple::FixFluidCouple(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, nar
     refuse("works on all particles: write 'fix " + std::string(id) + " all fluid/couple ...'");
   nevery = 1;
   create_attribute = 1;
+  restart_global = 1;
+  restart_peratom = 1;
+  force_reneighbor = 1;
+  next_reneighbor = -1;
+  link::catch_stop_signals("fix fluid/couple");
   connect();
   grow_arrays(atom->nmax);
   atom->add_callback(0);
+  atom->add_callback(1);
 }
 
 FixFluidCouple::~FixFluidCouple() {
   atom->delete_callback(id, 0);
+  atom->delete_callback(id, 1);
 }
 
 // The fluid side knows from here on that somebody has come, whatever the script does before its first run.
@@ -87,13 +96,14 @@ void FixFluidCouple::read(const std::vector<std::string>& words) {
         address_ = value("an address");
       else if (link_ != "solver")
         refuse("link '" + link_ + "' is unknown: use solver, or socket ADDRESS");
-    } else if (keyword == "every") {
-      const std::string& text = value("a number of DEM steps");
+    } else if (keyword == "every" || keyword == "checkpoint") {
+      const std::string what = keyword == "every" ? "DEM steps" : "meetings";
+      const std::string& text = value(("a number of " + what).c_str());
       char* end = nullptr;
       const long number = std::strtol(text.c_str(), &end, 10);
       if (end == text.c_str() || *end || number < 1 || number > 1000000000L)
-        refuse("every has '" + text + "': give a whole number of DEM steps from 1 on");
-      interval_ = static_cast<int>(number);
+        refuse(keyword + " has '" + text + "': give a whole number of " + what + " from 1 on");
+      (keyword == "every" ? interval_ : checkpoint_every_) = static_cast<int>(number);
     } else if (keyword == "timeout" || keyword == "wait") {
       const std::string& text = value("seconds");
       char* end = nullptr;
@@ -104,7 +114,8 @@ void FixFluidCouple::read(const std::vector<std::string>& words) {
       waits = true;
     } else {
       refuse("unknown word '" + keyword +
-             "': known are link solver, link socket ADDRESS, every N, timeout SECONDS and wait SECONDS");
+             "': known are link solver, link socket ADDRESS, every N, checkpoint M, timeout SECONDS and wait "
+             "SECONDS");
     }
   }
   if (link_.empty())
@@ -118,7 +129,7 @@ void FixFluidCouple::read(const std::vector<std::string>& words) {
 }
 
 int FixFluidCouple::setmask() {
-  return FixConst::END_OF_STEP;
+  return FixConst::PRE_INITIAL_INTEGRATE | FixConst::END_OF_STEP;
 }
 
 // Tickets of all atoms are blank already; LIGGGHTS need not visit them again at the first set-up.
@@ -131,6 +142,8 @@ void FixFluidCouple::init() {
   if (!forces_)
     refuse("meets a fluid that nothing feels: add fix fluid/force before the run");
   forces_->announce_source(id);
+  if (resuming_)
+    forces_->carry_on();
   bodies_ = cluster::FixBodies::find(lmp);
   if (domain->triclinic)
     refuse("needs a box with right angles: make the simulation box orthogonal");
@@ -160,6 +173,8 @@ link::DemTerms FixFluidCouple::terms() const {
   terms.fluid_density = forces_->rho_f();
   const fluid::Rheology& law = forces_->rheology();
   terms.rheology = {law.yield_stress, law.consistency, law.index};
+  if (resuming_)
+    terms.resumes = mark_;
   for (int i = 0; i < modify->nfix; ++i)
     if (std::strcmp(modify->fix[i]->style, "gravity") == 0)
       static_cast<FixGravity*>(modify->fix[i])->get_gravity(terms.gravity);
@@ -172,11 +187,17 @@ void FixFluidCouple::setup(int) {
   if (steps % interval_ != 0)
     refuse("a run of " + std::to_string(steps) + " steps is not a whole number of intervals of " +
            std::to_string(interval_) + ": change the run's length or every");
-  if (!agreed_)
+  if (resuming_ && update->ntimestep != mark_.step)
+    refuse("the checkpoint is one of step " + std::to_string(mark_.step) + " but this run begins at step " +
+           std::to_string(update->ntimestep) + ": remove what changes the step between read_restart and the run");
+  if (!agreed_ && !resuming_)
     tickets_.assign(tickets_.size(), link::Ticket{});
   pack();
   try {
-    peer_->agree(terms());
+    const std::uint64_t layout = peer_->agree(terms()).layout;
+    if (layout != layout_)
+      tickets_.assign(tickets_.size(), link::Ticket{});
+    layout_ = layout;
   } catch (const link::Refusal& refusal) {
     refuse(refusal.what());
   }
@@ -187,15 +208,30 @@ void FixFluidCouple::setup(int) {
     met_ = true;
   }
   countdown_ = interval_;
+  plan_checkpoint();
   left_fluid_at_ = MPI_Wtime();
+}
+
+void FixFluidCouple::pre_initial_integrate() {
+  if (resuming_)
+    restore_forces();
+  if (countdown_ == 1)
+    look_for_signals();
 }
 
 void FixFluidCouple::end_of_step() {
   if (--countdown_ > 0)
     return;
   countdown_ = interval_;
+  const int stop_before = stop_;
   meet(interval_ * update->dt);
   forces_->reset_reaction();
+  ++meetings_;
+  if (next_reneighbor == update->ntimestep)
+    write_checkpoint();
+  if (stop_before)
+    stop_for_signal();
+  plan_checkpoint();
 }
 
 void FixFluidCouple::post_run() {
@@ -317,8 +353,11 @@ void FixFluidCouple::meet(double elapsed) {
   particles.ticket = tickets_.data();
   pack_seconds_ = MPI_Wtime() - arrived;
   try {
-    peer_->meet(meeting, particles, forces_->samples());
+    const int signal = peer_->meet(meeting, particles, forces_->samples());
+    if (stop_ == 0)
+      stop_ = signal;
   } catch (const link::Refusal& refusal) {
+    keep_particles();
     refuse(refusal.what());
   }
   left_fluid_at_ = MPI_Wtime();
@@ -326,25 +365,37 @@ void FixFluidCouple::meet(double elapsed) {
 
 void FixFluidCouple::grow_arrays(int rows) {
   tickets_.resize(rows);
+  if (resuming_)
+    resumed_.resize(rows);
 }
 
 void FixFluidCouple::copy_arrays(int from, int to, int) {
   tickets_[to] = tickets_[from];
+  if (resuming_)
+    resumed_[to] = resumed_[from];
 }
 
 void FixFluidCouple::set_arrays(int i) {
   tickets_[i] = link::Ticket{};
+  if (resuming_)
+    resumed_[i] = Resumed{};
 }
 
 int FixFluidCouple::pack_exchange(int i, double* buffer) {
   buffer[0] = tickets_[i].rank;
   buffer[1] = tickets_[i].cell;
-  return kTicketDoubles;
+  if (!resuming_)
+    return kTicketDoubles;
+  std::memcpy(buffer + kTicketDoubles, resumed_[i].values, sizeof resumed_[i].values);
+  return kTicketDoubles + kForceDoubles;
 }
 
 int FixFluidCouple::unpack_exchange(int row, double* buffer) {
   tickets_[row] = {static_cast<std::int32_t>(buffer[0]), static_cast<std::int32_t>(buffer[1])};
-  return kTicketDoubles;
+  if (!resuming_)
+    return kTicketDoubles;
+  std::memcpy(resumed_[row].values, buffer + kTicketDoubles, sizeof resumed_[row].values);
+  return kTicketDoubles + kForceDoubles;
 }
 
 double FixFluidCouple::memory_usage() {

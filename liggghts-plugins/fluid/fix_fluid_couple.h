@@ -29,6 +29,7 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   void post_create() override;
   void init() override;
   void setup(int vflag) override;
+  void pre_initial_integrate() override;
   void end_of_step() override;
   void post_run() override;
 
@@ -37,14 +38,33 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   void set_arrays(int i) override;
   int pack_exchange(int i, double* buffer) override;
   int unpack_exchange(int row, double* buffer) override;
+  int pack_restart(int i, double* buffer) override;
+  void unpack_restart(int row, int nth) override;
+  int size_restart(int row) override;
+  int maxsize_restart() override;
+  void write_restart(FILE* file) override;
+  void restart(char* buffer) override;
   double memory_usage() override;
 
  private:
+  /// Force and torque with which a run goes on, and the ticket.
+  struct Resumed {
+    double values[6];
+  };
   [[noreturn]] void refuse(const std::string& text);
   void connect();
   void read(const std::vector<std::string>& words);
   link::DemTerms terms() const;
   void meet(double elapsed);
+  /// Sees to it that the atoms are sorted and listed anew in the step of the next meeting, if a checkpoint is due
+  /// there: the run that reads it begins with just that.
+  void plan_checkpoint();
+  void write_checkpoint();
+  void restore_forces();
+  void look_for_signals();
+  [[noreturn]] void stop_for_signal();
+  /// After the link has failed: what this side alone can keep.
+  void keep_particles();
   void pack();
   void pack_extent(int i, double* extent);
   link::DemTotals totals() const;
@@ -56,6 +76,13 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   int countdown_ = 0;
   bool agreed_ = false;
   bool met_ = false;
+  int checkpoint_every_ = 0;     ///< meetings; 0: only when a signal asks to stop
+  std::int64_t meetings_ = 0;    ///< since the beginning, also of earlier runs
+  int stop_ = 0;                 ///< signal that asks one of the sides to stop
+  link::CheckpointMark mark_;    ///< while a checkpoint is written, or until the run that goes on from it has begun
+  std::uint64_t layout_ = 0;     ///< for which the tickets hold
+  bool resuming_ = false;        ///< until the first step
+  std::vector<Resumed> resumed_; ///< per atom, while resuming_
   link::FluidPeer* peer_ = nullptr;
   std::unique_ptr<link::SocketPeer> own_peer_; ///< null with link solver
   FixFluidForce* forces_ = nullptr;

@@ -185,7 +185,8 @@ void FixFluidForce::setup(int) {
     error->all(FLERR, ("fix fluid/force '" + std::string(id) + "' is given the flow by both fix '" + sources_[0] +
                        "' and fix '" + sources_[1] + "': unfix one of them")
                           .c_str());
-  first_step_ = true;
+  first_step_ = !carries_on_;
+  carries_on_ = false;
   first_of_run_ = update->ntimestep;
   run_began_ = MPI_Wtime();
   std::fill(seconds_.begin(), seconds_.end(), 0.0);

@@ -45,6 +45,9 @@ class FixFluidForce : public LAMMPS_NS::Fix {
   /// Of that, what local atom i has in its velocity Atom::v by now: without the half kick that the integrator owes [N
   /// s].
   std::array<double, 3> received(int i);
+  /// The next run goes on exactly where the run that wrote the restart file was: its first half kick is in Atom::f
+  /// already. Call before that run's setup().
+  void carry_on() { carries_on_ = true; }
   /// The fix that fills samples(), by id; a second one is an error at set-up.
   void announce_source(const std::string& fix_id);
 
@@ -117,6 +120,7 @@ class FixFluidForce : public LAMMPS_NS::Fix {
   double elapsed_ = 0.0;
   double owed_ = 0.0; ///< time of the last kick that the integrator has not applied yet [s]
   bool first_step_ = true;
+  bool carries_on_ = false;
   bool reported_ = false;
   bool range_warned_ = false;
 };

@@ -56,6 +56,14 @@ particleExchange::particleExchange(const fvMesh& mesh, const ExchangeSettings& s
       guess.setSize(mesh.nCells(), Zero);
 }
 
+std::vector<scalarField*> particleExchange::memory() {
+  std::vector<scalarField*> guesses = {&solidGuess_, &dragGuess_};
+  for (auto* triple : {&forceGuess_, &pressureGuess_, &stressGuess_})
+    for (scalarField& guess : *triple)
+      guesses.push_back(&guess);
+  return guesses;
+}
+
 void particleExchange::spread(scalarField& amount, scalarField& perVolume) {
   if (diffusion_) {
     diffusion_->spread(amount, perVolume);

@@ -68,8 +68,12 @@ class FluidPeer {
   /// States the DEM side's terms and returns the fluid side's; throws Refusal if they disagree.
   virtual FluidTerms agree(const DemTerms& dem) = 0;
   /// Hands over the particles, advances the flow by `meeting.elapsed`, and fills the arrays of `samples` (rows as in
-  /// `particles`); those that `meeting.needed` does not name are null.
-  virtual void meet(const Meeting& meeting, const ParticleArrays& particles, const fluid::FluidSamples& samples) = 0;
+  /// `particles`); those that `meeting.needed` does not name are null. Returns the signal that asks the fluid side to
+  /// stop, or 0.
+  virtual int meet(const Meeting& meeting, const ParticleArrays& particles, const fluid::FluidSamples& samples) = 0;
+  /// Writes the fluid's state of the last meeting such that it is on the disk on return, and returns where (for the
+  /// user's eyes). The DEM side writes its own after that: a checkpoint of DEM's has one of the fluid's.
+  virtual std::string checkpoint(const CheckpointMark& mark) = 0;
   /// The present run of DEM has ended as intended.
   virtual void run_ended() = 0;
 };

@@ -16,6 +16,7 @@ struct FluidServer::Command {
   std::size_t count = 0;
   DemTerms terms;
   Meeting meeting;
+  CheckpointMark mark;
 };
 
 FluidServer::FluidServer(MPI_Comm ranks, const std::string& address, const Patience& patience, std::int32_t cells)
@@ -50,6 +51,8 @@ FluidServer::Command FluidServer::next_command() {
             "them from fix fluid/force");
       command.count = rows.count;
       command.meeting.pack_seconds += transport_seconds_;
+    } else if (command.kind == wire::Kind::checkpoint && agreed_) {
+      command.mark = wire::decode_checkpoint(message_.view());
     } else if (command.kind != wire::Kind::run_ended && command.kind != wire::Kind::farewell) {
       throw Refusal("the DEM side spoke out of turn: install the same release of Eccentra on both sides");
     }
@@ -87,7 +90,7 @@ void FluidServer::answer_meeting(FluidPeer& fluid, const Command& command) {
   wire::Guests guests({mine, rows.data()}, extents_, command.meeting.needed);
   const double ready = MPI_Wtime();
 
-  fluid.meet(command.meeting, guests.particles(), guests.samples());
+  const int signal = fluid.meet(command.meeting, guests.particles(), guests.samples());
 
   const double met = MPI_Wtime();
   guests.pack_samples(rows.data());
@@ -96,10 +99,18 @@ void FluidServer::answer_meeting(FluidPeer& fluid, const Command& command) {
   gather_rows(ranks_, rows.data(), static_cast<int>(mine), answer_bytes, shares,
               channel_ ? answer.data() + head : nullptr);
   on_root(ranks_, [&] {
-    wire::write_samples_head(answer.data(), command.count, command.meeting.needed);
+    wire::write_samples_head(answer.data(), command.count, command.meeting.needed, signal);
     // Before sending: the DEM side begins at once, and may take this processor.
     transport_seconds_ = MPI_Wtime() - met + ready - begun;
     channel_->send(std::move(answer));
+    return wire::Bytes();
+  });
+}
+
+void FluidServer::answer_checkpoint(FluidPeer& fluid, const Command& command) {
+  const std::string place = fluid.checkpoint(command.mark);
+  on_root(ranks_, [&] {
+    channel_->send(Channel::Message(wire::encode_checkpointed(place)));
     return wire::Bytes();
   });
 }
@@ -114,6 +125,8 @@ void FluidServer::serve(FluidPeer& fluid) {
         answer_terms(fluid, command);
       else if (command.kind == wire::Kind::meeting)
         answer_meeting(fluid, command);
+      else if (command.kind == wire::Kind::checkpoint)
+        answer_checkpoint(fluid, command);
       else
         fluid.run_ended();
     }

@@ -34,6 +34,7 @@ class FluidServer {
   Command next_command();
   void answer_terms(FluidPeer& fluid, const Command& command);
   void answer_meeting(FluidPeer& fluid, const Command& command);
+  void answer_checkpoint(FluidPeer& fluid, const Command& command);
 
   MPI_Comm ranks_;
   std::unique_ptr<Channel> channel_;        ///< of rank 0

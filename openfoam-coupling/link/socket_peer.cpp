@@ -58,7 +58,7 @@ FluidTerms SocketPeer::agree(const DemTerms& dem) {
   return wire::decode_fluid_terms({reply.data(), reply.size()});
 }
 
-void SocketPeer::meet(const Meeting& meeting, const ParticleArrays& particles, const fluid::FluidSamples& samples) {
+int SocketPeer::meet(const Meeting& meeting, const ParticleArrays& particles, const fluid::FluidSamples& samples) {
   const double begun = MPI_Wtime();
   const std::size_t row_bytes = wire::particle_row_bytes(extents_);
   const std::size_t answer_bytes = wire::samples_row_bytes(meeting.needed);
@@ -77,7 +77,7 @@ void SocketPeer::meet(const Meeting& meeting, const ParticleArrays& particles, c
               channel_ ? message.data() + head : nullptr);
   double answered = begun, asked = begun;
   wire::Rows answer;
-  on_root_or_leave([&] {
+  const wire::Bytes signal = on_root_or_leave([&] {
     Meeting told = meeting;
     told.pack_seconds += transport_seconds_;
     wire::write_meeting_head(message.data(), told, shares.total, extents_);
@@ -87,11 +87,23 @@ void SocketPeer::meet(const Meeting& meeting, const ParticleArrays& particles, c
     message = channel_->receive();
     answered = MPI_Wtime();
     answer = wire::decode_samples(message.view(), shares.total, meeting.needed);
-    return wire::Bytes();
+    return wire::Bytes(1, std::byte(answer.stop_signal));
   });
   scatter_rows(ranks_, answer.data, shares, answer_bytes, rows.data(), static_cast<int>(particles.count));
   wire::unpack_samples({particles.count, rows.data()}, meeting.needed, samples, particles.ticket);
   transport_seconds_ = MPI_Wtime() - begun - (answered - asked);
+  return std::to_integer<int>(signal.at(0));
+}
+
+std::string SocketPeer::checkpoint(const CheckpointMark& mark) {
+  const wire::Bytes place = on_root_or_leave([&] {
+    channel_->send(Channel::Message(wire::encode(mark)));
+    const Channel::Message message = channel_->receive();
+    const std::string text = wire::decode_checkpointed(message.view());
+    const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+    return wire::Bytes(bytes, bytes + text.size());
+  });
+  return {reinterpret_cast<const char*>(place.data()), place.size()};
 }
 
 void SocketPeer::run_ended() {

@@ -25,7 +25,8 @@ class SocketPeer : public FluidPeer {
   ~SocketPeer() override;
 
   FluidTerms agree(const DemTerms& dem) override;
-  void meet(const Meeting& meeting, const ParticleArrays& particles, const fluid::FluidSamples& samples) override;
+  int meet(const Meeting& meeting, const ParticleArrays& particles, const fluid::FluidSamples& samples) override;
+  std::string checkpoint(const CheckpointMark& mark) override;
   void run_ended() override;
   /// Tells the fluid side in one sentence why this side ends here. Not collective.
   void leave(const std::string& why) noexcept;

@@ -26,6 +26,12 @@ struct FlowCurve {
   double index = 0.0;
 };
 
+/// Names one instant of a coupled run: both sides' checkpoints of it bear the same mark.
+struct CheckpointMark {
+  std::int64_t step = -1; ///< of DEM; negative: none
+  std::uint64_t id = 0;   ///< differs between runs that reach the same step
+};
+
 /// The DEM side's statement.
 struct DemTerms {
   std::uint32_t protocol = kProtocolVersion;
@@ -39,6 +45,7 @@ struct DemTerms {
   double fluid_density = 0.0;    ///< that the closures were told [kg/m3]; 0: none was
   FlowCurve rheology;            ///< that the closures were told
   double gravity[3] = {0, 0, 0}; ///< that acts on the particles [m/s2]
+  CheckpointMark resumes;        ///< the checkpoint that this run goes on from, if any
 };
 
 /// The fluid side's statement.
@@ -52,6 +59,7 @@ struct FluidTerms {
   FlowCurve rheology;         ///< without the regularisation, which is the solver's own
   bool has_gravity = false;   ///< constant/g exists; the flow itself needs none
   double gravity[3] = {0, 0, 0};
+  std::uint64_t layout = 0; ///< names the mesh and its division among ranks: tickets hold for one layout
 };
 
 /// One of the two sides, or what lies between them, cannot go on; what() is the one sentence for the user.

@@ -114,7 +114,7 @@ Header read_header(Reader& in) {
   Header header;
   header.version = in.take<std::uint32_t>();
   const auto kind = in.take<std::uint32_t>();
-  if (kind < static_cast<std::uint32_t>(Kind::dem_terms) || kind > static_cast<std::uint32_t>(Kind::farewell))
+  if (kind < static_cast<std::uint32_t>(Kind::dem_terms) || kind > static_cast<std::uint32_t>(Kind::checkpointed))
     broken("is of an unknown kind");
   header.kind = static_cast<Kind>(kind);
   if (in.take<std::uint32_t>() != sizeof(double))
@@ -176,8 +176,12 @@ FlowCurve take_flow_curve(Reader& in) {
 
 constexpr std::size_t kExtentsBytes = 6 * 8 + 4 * 4;
 constexpr std::size_t kFlowCurveBytes = 3 * 8;
-constexpr std::size_t kDemTermsBytes = 8 + 2 * 8 + 2 * 8 + kExtentsBytes + 2 * 4 + 8 + kFlowCurveBytes + 3 * 8;
-constexpr std::size_t kFluidTermsBytes = 8 + 2 * 8 + kExtentsBytes + 2 * 4 + 8 + kFlowCurveBytes + 3 * 8;
+constexpr std::size_t kMarkBytes = 2 * 8;
+constexpr std::size_t kDemTermsBytes =
+    8 + 2 * 8 + 2 * 8 + kExtentsBytes + 2 * 4 + 8 + kFlowCurveBytes + 3 * 8 + kMarkBytes;
+constexpr std::size_t kFluidTermsBytes = 8 + 2 * 8 + kExtentsBytes + 2 * 4 + 8 + kFlowCurveBytes + 3 * 8 + 8;
+/// Largest signal number of any system.
+constexpr std::uint32_t kMostSignal = 64;
 
 double* as_double(std::vector<double>& values, bool wanted) {
   return wanted ? values.data() : nullptr;
@@ -241,6 +245,8 @@ Bytes encode(const DemTerms& terms) {
   out.put(terms.fluid_density);
   put_flow_curve(out, terms.rheology);
   out.raw(terms.gravity, sizeof terms.gravity);
+  out.put(terms.resumes.step);
+  out.put(terms.resumes.id);
   return message;
 }
 
@@ -260,6 +266,8 @@ DemTerms decode_dem_terms(View message) {
   terms.rheology = take_flow_curve(in);
   for (double& g : terms.gravity)
     g = in.number();
+  terms.resumes.step = in.take<std::int64_t>();
+  terms.resumes.id = in.take<std::uint64_t>();
   in.end();
   if (terms.particles < 0 || std::uint64_t(terms.particles) > kMostParticles)
     throw Refusal("the DEM side has " + std::to_string(terms.particles) +
@@ -280,6 +288,7 @@ Bytes encode(const FluidTerms& terms) {
   out.put(terms.fluid_density);
   put_flow_curve(out, terms.rheology);
   out.raw(terms.gravity, sizeof terms.gravity);
+  out.put(terms.layout);
   return message;
 }
 
@@ -297,19 +306,41 @@ FluidTerms decode_fluid_terms(View message) {
   terms.rheology = take_flow_curve(in);
   for (double& g : terms.gravity)
     g = in.number();
+  terms.layout = in.take<std::uint64_t>();
   in.end();
   return terms;
 }
 
-Bytes encode_refusal(const std::string& sentence) {
-  const std::size_t length = std::min(sentence.size(), kMostText);
-  Bytes message = with_header(Kind::refusal, length);
-  Writer(message.data() + kHeaderBytes).raw(sentence.data(), length);
+Bytes encode(const CheckpointMark& mark) {
+  Bytes message = with_header(Kind::checkpoint, kMarkBytes);
+  Writer out(message.data() + kHeaderBytes);
+  out.put(mark.step);
+  out.put(mark.id);
   return message;
 }
 
-std::string decode_refusal(View message) {
-  const Reader in = body_of(message, Kind::refusal);
+CheckpointMark decode_checkpoint(View message) {
+  Reader in = body_of(message, Kind::checkpoint);
+  CheckpointMark mark;
+  mark.step = in.take<std::int64_t>();
+  mark.id = in.take<std::uint64_t>();
+  in.end();
+  if (mark.step < 0)
+    broken("speaks of a checkpoint before the beginning");
+  return mark;
+}
+
+namespace {
+
+Bytes encode_text(Kind kind, const std::string& text) {
+  const std::size_t length = std::min(text.size(), kMostText);
+  Bytes message = with_header(kind, length);
+  Writer(message.data() + kHeaderBytes).raw(text.data(), length);
+  return message;
+}
+
+std::string decode_text(View message, Kind kind) {
+  const Reader in = body_of(message, kind);
   if (in.left() > kMostText)
     broken("is longer than a sentence");
   std::string text(reinterpret_cast<const char*>(in.here()), in.left());
@@ -318,6 +349,24 @@ std::string decode_refusal(View message) {
     if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~')
       c = '?';
   return text;
+}
+
+} // namespace
+
+Bytes encode_refusal(const std::string& sentence) {
+  return encode_text(Kind::refusal, sentence);
+}
+
+std::string decode_refusal(View message) {
+  return decode_text(message, Kind::refusal);
+}
+
+Bytes encode_checkpointed(const std::string& place) {
+  return encode_text(Kind::checkpointed, place);
+}
+
+std::string decode_checkpointed(View message) {
+  return decode_text(message, Kind::checkpointed);
 }
 
 Bytes encode_bare(Kind kind) {
@@ -392,12 +441,12 @@ Rows decode_meeting(View message, bool extents, Meeting& meeting) {
   return rows;
 }
 
-void write_samples_head(std::byte* message, std::size_t count, unsigned quantities) {
+void write_samples_head(std::byte* message, std::size_t count, unsigned quantities, int stop_signal) {
   write_header(message, Kind::samples, kSamplesBytes + count * samples_row_bytes(quantities));
   Writer out(message + kHeaderBytes);
   out.put(std::uint64_t(count));
   out.put(std::uint32_t(quantities));
-  out.put(std::uint32_t(0));
+  out.put(std::uint32_t(stop_signal));
 }
 
 Rows decode_samples(View message, std::size_t count, unsigned quantities) {
@@ -405,7 +454,10 @@ Rows decode_samples(View message, std::size_t count, unsigned quantities) {
   Rows rows;
   rows.count = checked_count(in);
   const unsigned sent = in.quantities();
-  in.take<std::uint32_t>();
+  const auto signal = in.take<std::uint32_t>();
+  if (signal > kMostSignal)
+    broken("names a signal that does not exist");
+  rows.stop_signal = static_cast<int>(signal);
   if (rows.count != count || sent != quantities)
     broken("answers another question than was asked");
   const std::size_t row_bytes = samples_row_bytes(quantities);

@@ -21,6 +21,8 @@ enum class Kind : std::uint32_t {
   samples = 5,     ///< fluid to DEM: one row per particle, in the order received
   run_ended = 6,   ///< DEM to fluid: this run of the script has ended as intended
   farewell = 7,    ///< DEM to fluid: the script has ended as intended
+  checkpoint = 8,  ///< DEM to fluid: write the state of the last meeting under this mark
+  checkpointed = 9 ///< fluid to DEM: it is on the disk, and where
 };
 
 /// Bytes before the body of every message.
@@ -55,16 +57,20 @@ using Bytes = std::vector<std::byte>;
 Bytes encode(const DemTerms& terms);
 Bytes encode(const FluidTerms& terms);
 Bytes encode_refusal(const std::string& sentence);
+Bytes encode(const CheckpointMark& mark);
+Bytes encode_checkpointed(const std::string& place);
 Bytes encode_bare(Kind kind); ///< run_ended or farewell
 /// `message` has room for kHeaderBytes + kMeetingBytes; `count` rows follow them.
 void write_meeting_head(std::byte* message, const Meeting& meeting, std::size_t count, bool extents);
-/// `message` has room for kHeaderBytes + kSamplesBytes; `count` rows follow them.
-void write_samples_head(std::byte* message, std::size_t count, unsigned quantities);
+/// `message` has room for kHeaderBytes + kSamplesBytes; `count` rows follow them. `stop_signal`: the one that asks the
+/// fluid side to stop, or 0.
+void write_samples_head(std::byte* message, std::size_t count, unsigned quantities, int stop_signal = 0);
 
 /// Rows of a message, still in it.
 struct Rows {
   std::size_t count = 0;
   const std::byte* data = nullptr;
+  int stop_signal = 0; ///< of samples: 0 to 64
 };
 
 // The decoders throw Refusal with one sentence unless every size is what is there and every number is finite; none
@@ -76,6 +82,8 @@ Kind kind_of(View message);
 DemTerms decode_dem_terms(View message);
 FluidTerms decode_fluid_terms(View message);
 std::string decode_refusal(View message);
+CheckpointMark decode_checkpoint(View message);
+std::string decode_checkpointed(View message);
 /// `extents` as the DEM side's terms said. Volumes are positive.
 Rows decode_meeting(View message, bool extents, Meeting& meeting);
 /// `count` and `quantities` as the meeting asked for.

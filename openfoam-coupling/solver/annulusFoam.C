@@ -22,7 +22,7 @@ void run(const argList& args) {
   Time runTime(Time::controlDictName, args);
   fvMesh mesh(IOobject(fvMesh::defaultRegion, runTime.timeName(), runTime, IOobject::MUST_READ));
   if (eccentra::coupledRun::wanted(runTime)) {
-    eccentra::coupledRun(mesh, args.found("verbose")).run();
+    eccentra::coupledRun(mesh, args.found("verbose"), args.found("resume")).run();
     return;
   }
   averagedFlow flow(mesh, averagedFlow::particles::none);
@@ -45,6 +45,7 @@ int main(int argc, char* argv[]) {
   argList::addNote("Flow of a Herschel-Bulkley fluid in an annulus, alone or with particles");
   argList::noBanner();
   argList::addBoolOption("verbose", "print the residuals of every linear solve");
+  argList::addBoolOption("resume", "go on from the newest complete checkpoint of a coupled run (docs/checkpoints.md)");
   const argList args(argc, argv);
   runReportingErrors("annulusFoam", [&] { run(args); });
   return 0;

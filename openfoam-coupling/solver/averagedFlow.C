@@ -162,6 +162,15 @@ void averagedFlow::resetFractionHistory() {
   coupled_->alphaPhi = coupled_->alphaf * phi_;
 }
 
+void averagedFlow::resume(scalar G) {
+  drive_.resume(G);
+  viscosity_->correct();
+  if (coupled_.valid()) {
+    coupled_->alphaf = fvc::interpolate(coupled_->alpha);
+    coupled_->alphaPhi = coupled_->alphaf * phi_;
+  }
+}
+
 void averagedFlow::advance() {
   drive_.update();
   if (coupled_.valid()) {

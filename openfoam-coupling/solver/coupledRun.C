@@ -4,10 +4,12 @@
 #include "coupledRun.H"
 
 #include "demHost.h"
+#include "fluidCheckpoint.H"
 #include "inputError.H"
 #include "statedTerms.H"
 
 #include "link/fluid_server.h"
+#include "link/stop_signal.h"
 
 #include "OSspecific.H"
 #include "Time.H"
@@ -89,6 +91,24 @@ class quiet {
   const int level_;
 };
 
+/// Which floating-point exceptions end the process while it lives. OpenFOAM asks for some of them; loops of the DEM
+/// side, vectorised, may divide by zero where nobody looks at the result.
+class trapping {
+ public:
+  explicit trapping(int exceptions) : before_(fegetexcept()) { set(exceptions); }
+  trapping(const trapping&) = delete;
+  trapping& operator=(const trapping&) = delete;
+  ~trapping() { set(before_); }
+
+ private:
+  static void set(int exceptions) {
+    std::feclearexcept(FE_ALL_EXCEPT);
+    fedisableexcept(FE_ALL_EXCEPT);
+    feenableexcept(exceptions);
+  }
+  const int before_;
+};
+
 /// LIGGGHTS needs MPI, which OpenFOAM starts in parallel runs only.
 class runningMpi {
  public:
@@ -154,11 +174,24 @@ link::Extents extentsOf(const fvMesh& mesh) {
   return extents;
 }
 
+/// Changes with the cells of any rank (FNV-1a).
+std::uint64_t layoutOf(const fvMesh& mesh) {
+  List<label> cells(Pstream::nProcs());
+  cells[Pstream::myProcNo()] = mesh.nCells();
+  Pstream::gatherList(cells);
+  Pstream::scatterList(cells);
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const label count : cells)
+    hash = (hash ^ std::uint64_t(count)) * 0x100000001b3;
+  return hash;
+}
+
 } // namespace
 
-coupledRun::coupledRun(fvMesh& mesh, bool verbose)
+coupledRun::coupledRun(fvMesh& mesh, bool verbose, bool resume)
     : mesh_(mesh), time_(const_cast<Time&>(mesh.time())), properties_(propertiesFile(mesh.time())), verbose_(verbose),
-      semiImplicit_(readMomentum(properties_)), method_(readVoidFraction(properties_)) {}
+      resume_(resume), traps_(fegetexcept()), semiImplicit_(readMomentum(properties_)),
+      method_(readVoidFraction(properties_)) {}
 
 bool coupledRun::wanted(const Time& time) {
   return isFile(time.globalPath() / time.constant() / "couplingProperties");
@@ -175,6 +208,7 @@ void coupledRun::run() {
   if (every < 1)
     throw inputError(properties_, "report", every, "give a whole number of meetings, at least 1");
   const runningMpi mpi;
+  link::catch_stop_signals("annulusFoam");
   if (link == "solver")
     hostScript();
   else
@@ -190,7 +224,9 @@ void coupledRun::hostScript() {
   if (!isFile(script))
     throw inputError(properties_, "demScript", script, "give a LIGGGHTS input script in the case folder");
   link::hosting_solver() = this;
-  run_dem_script(script, properties_.getOrDefault<fileName>("demLog", "log.liggghts"));
+  const trapping off(0);
+  run_dem_script(script, properties_.getOrDefault<fileName>("demLog", "log.liggghts"),
+                 resume_ ? link::script_variables(newestCheckpoint()) : std::vector<std::string>());
   link::hosting_solver() = nullptr;
   if (!flow_)
     throw inputError(properties_, "demScript", script, "it never ran a fix fluid/couple with link solver: add one");
@@ -218,7 +254,56 @@ void coupledRun::serveSocket() {
     throw inputError(properties_, "address", address, "the DEM script that came there never ran its fix fluid/couple");
 }
 
+link::CheckpointChoice coupledRun::newestCheckpoint() const {
+  const auto fluidPart = [this](const link::Manifest& dem, std::string& why) {
+    return fluidCheckpoint::whole(mesh_, dem.mark, why);
+  };
+  const link::CheckpointChoice choice = link::newest_checkpoint(fluidPart);
+  for (const std::string& sentence : choice.passed_over)
+    Info << sentence << endl;
+  Info << (choice.mark.step < 0 ? "no complete checkpoint: the run begins at its beginning"
+                                : "the run goes on from checkpoint " + std::to_string(choice.mark.step))
+       << endl;
+  return choice;
+}
+
+void coupledRun::resumeFrom(const link::CheckpointMark& mark) {
+  std::string why;
+  if (!fluidCheckpoint::whole(mesh_, mark, why))
+    throw link::Refusal("the DEM side goes on from checkpoint " + std::to_string(mark.step) +
+                        " but the fluid cannot: " + why + "; take another checkpoint for both, or begin anew");
+  const dictionary facts = fluidCheckpoint::facts(mesh_, mark.step);
+  const scalar usual = time_.deltaTValue();
+  time_.setTime(facts.get<scalar>("time"), facts.get<label>("timeIndex"));
+  // A folder of that time may have told another step, in fewer digits.
+  time_.setDeltaT(usual, false);
+  exchange::ExchangeSettings settings;
+  settings.length = facts.get<scalar>("length");
+  settings.diffusionSteps = facts.get<label>("diffusionSteps");
+  makeExchange(settings);
+  fluidCheckpoint::readFields(*flow_, *exchange_, mark.step);
+  flow_->resume(facts.get<scalar>("drive"));
+  asked_ = unsigned(facts.get<label>("asked"));
+  const dictionary report = facts.subDict("report");
+  report_ =
+      std::make_unique<couplingReport>(mesh_, dem_, properties_.getOrDefault<label>("report", kReportEvery), &report);
+}
+
+std::string coupledRun::checkpoint(const link::CheckpointMark& mark) {
+  const trapping on(traps_);
+  dictionary facts;
+  facts.add("time", time_.value());
+  facts.add("timeIndex", time_.timeIndex());
+  facts.add("length", exchange_->settings().length);
+  facts.add("diffusionSteps", label(exchange_->settings().diffusionSteps));
+  facts.add("drive", flow_->drive().G());
+  facts.add("asked", label(asked_));
+  facts.add("report", report_->state());
+  return fluidCheckpoint::write(*flow_, *exchange_, mark, facts);
+}
+
 link::FluidTerms coupledRun::agree(const link::DemTerms& dem) {
+  const trapping on(traps_);
   if (!flow_)
     flow_ = std::make_unique<averagedFlow>(mesh_, averagedFlow::particles::coupled);
   link::FluidTerms terms;
@@ -228,16 +313,18 @@ link::FluidTerms coupledRun::agree(const link::DemTerms& dem) {
   terms.fluid_density = flow_->rho();
   terms.rheology = statedRheology(flow_->rheology(), flow_->rho());
   stateGravity(mesh_, terms);
+  terms.layout = layoutOf(mesh_);
   const std::string text = link::disagreement(dem, terms);
   if (!text.empty())
     throw link::Refusal(text);
   dem_ = dem;
+  if (dem.resumes.step >= 0)
+    resumeFrom(dem.resumes);
   return terms;
 }
 
 void coupledRun::makeExchange(const link::Meeting& meeting) {
   exchange::ExchangeSettings settings;
-  settings.method = method_;
   const double diameter =
       meeting.totals.particles
           ? std::cbrt(6.0 / constant::mathematical::pi * meeting.totals.volume / meeting.totals.particles)
@@ -252,6 +339,11 @@ void coupledRun::makeExchange(const link::Meeting& meeting) {
   const double expected = diameter > 0 ? diameter : settings.length / diameters;
   const bool fine = expected > kFineCells * std::cbrt(gMin(mesh_.V().field()));
   settings.diffusionSteps = properties_.getOrDefault<label>("diffusionSteps", fine ? 2 : 1);
+  makeExchange(settings);
+}
+
+void coupledRun::makeExchange(exchange::ExchangeSettings settings) {
+  settings.method = method_;
   settings.mostSolid = properties_.getOrDefault<scalar>("mostSolid", settings.mostSolid);
   settings.fractionFloor = properties_.getOrDefault<scalar>("fractionFloor", settings.fractionFloor);
   settings.tolerance = properties_.getOrDefault<scalar>("tolerance", settings.tolerance);
@@ -287,8 +379,24 @@ void coupledRun::runIn() {
        << " Pa/m" << endl;
 }
 
-void coupledRun::meet(const link::Meeting& meeting, const link::ParticleArrays& particles,
-                      const fluid::FluidSamples& samples) {
+void coupledRun::checkFinite(const link::Meeting& meeting) const {
+  const link::DemTotals& totals = meeting.totals;
+  double sum = totals.fastest;
+  for (int k = 0; k < 3; ++k)
+    sum += totals.momentum[k] + totals.volume_position[k];
+  const bool particles = std::isfinite(sum);
+  if (particles && std::isfinite(mag(flow_->superficialVelocity())))
+    return;
+  throw link::Refusal("the coupled run has blown up at t = " + time_.timeName() + " s: the " +
+                      (particles ? "fluid's velocity" : "particles' motion") +
+                      " is no number; reduce deltaT and the DEM time step together, or every, and go on from the last "
+                      "checkpoint with -resume");
+}
+
+int coupledRun::meet(const link::Meeting& meeting, const link::ParticleArrays& particles,
+                     const fluid::FluidSamples& samples) {
+  checkFinite(meeting);
+  const trapping on(traps_);
   const bool first = !exchange_;
   if (first) {
     makeExchange(meeting);
@@ -323,6 +431,7 @@ void coupledRun::meet(const link::Meeting& meeting, const link::ParticleArrays& 
     flow_->advance();
   }
   seconds.fluid = watch.lap();
+  checkFinite(meeting);
 
   exchange::FlowFields fields;
   fields.velocity = &flow_->U();
@@ -341,6 +450,7 @@ void coupledRun::meet(const link::Meeting& meeting, const link::ParticleArrays& 
   report_->add(*flow_, *exchange_, meeting, seconds);
   if (meeting.elapsed > 0 && time_.writeTime())
     time_.write();
+  return returnReduce(label(link::stop_signal()), maxOp<label>());
 }
 
 void coupledRun::run_ended() {

@@ -11,6 +11,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <system_error>
 
 namespace eccentra {
 
@@ -37,7 +39,7 @@ vector vectorOf(const double* v) {
 
 } // namespace
 
-couplingReport::couplingReport(const fvMesh& mesh, const link::DemTerms& dem, int every)
+couplingReport::couplingReport(const fvMesh& mesh, const link::DemTerms& dem, int every, const dictionary* earlier)
     : mesh_(mesh), every_(every), started_(std::chrono::steady_clock::now()) {
   const vector gravity(vectorOf(dem.gravity));
   const vector across(gravity - axis_ * (axis_ & gravity));
@@ -49,18 +51,49 @@ couplingReport::couplingReport(const fvMesh& mesh, const link::DemTerms& dem, in
   lowest_ = returnReduce(lowest, maxOp<scalar>());
   const boundBox box(mesh.points(), true);
   length_ = box.span() & axis_;
-  if (Pstream::master()) {
-    const fileName folder(mesh.time().globalPath() / "postProcessing" / "eccentra");
-    mkDir(folder);
-    csv_ = std::make_unique<std::ofstream>(folder / "coupling.csv");
-    *csv_ << "time,particles,mean_velocity,pressure_gradient,solid_concentration,solids_flux,com_x,com_y,com_z,com_"
-             "height,"
-             "bed_height,bed_area,fastest_particle,least_fraction,courant,continuity_error,volume_error,impulse_error,"
-             "pressure_error,dem_seconds,fluid_seconds,exchange_seconds,link_seconds,"
-             "inserted,left,inserted_mass,mass,global_continuity_error,"
-             "momentum_x,momentum_y,momentum_z,fastest_fluid\n";
-    csv_->precision(13);
+  if (earlier) {
+    meetings_ = earlier->get<label>("meetings");
+    initially_ = std::llround(earlier->get<scalar>("initially"));
+    total_ = {earlier->get<scalar>("dem"), earlier->get<scalar>("fluid"), earlier->get<scalar>("exchange"),
+              earlier->get<scalar>("link")};
   }
+  if (Pstream::master())
+    openTable(earlier);
+}
+
+void couplingReport::openTable(const dictionary* earlier) {
+  const fileName folder(mesh_.time().globalPath() / "postProcessing" / "eccentra");
+  mkDir(folder);
+  const std::string file(folder / "coupling.csv");
+  // Rows that the earlier run wrote after its checkpoint come again.
+  std::error_code missing;
+  const auto kept = earlier ? static_cast<std::uintmax_t>(earlier->get<scalar>("tableBytes")) : 0;
+  if (kept > 0 && std::filesystem::file_size(file, missing) >= kept && !missing) {
+    std::filesystem::resize_file(file, kept);
+    csv_ = std::make_unique<std::ofstream>(file, std::ios::app | std::ios::ate);
+    csv_->precision(13);
+    return;
+  }
+  csv_ = std::make_unique<std::ofstream>(file);
+  *csv_ << "time,particles,mean_velocity,pressure_gradient,solid_concentration,solids_flux,com_x,com_y,com_z,com_"
+           "height,"
+           "bed_height,bed_area,fastest_particle,least_fraction,courant,continuity_error,volume_error,impulse_error,"
+           "pressure_error,dem_seconds,fluid_seconds,exchange_seconds,link_seconds,"
+           "inserted,left,inserted_mass,mass,global_continuity_error,"
+           "momentum_x,momentum_y,momentum_z,fastest_fluid\n";
+  csv_->precision(13);
+}
+
+dictionary couplingReport::state() const {
+  dictionary state;
+  state.add("meetings", label(meetings_));
+  state.add("initially", scalar(initially_));
+  state.add("dem", total_.dem);
+  state.add("fluid", total_.fluid);
+  state.add("exchange", total_.exchange);
+  state.add("link", total_.link);
+  state.add("tableBytes", csv_ ? scalar(csv_->tellp()) : 0.0);
+  return state;
 }
 
 // Between inlet and outlet the mean pressures of the two ends tell what the section costs.

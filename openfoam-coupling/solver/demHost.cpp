@@ -41,7 +41,7 @@ void show_error_of_log() {
 
 } // namespace
 
-void run_dem_script(const std::string& script, const std::string& log) {
+void run_dem_script(const std::string& script, const std::string& log, const std::vector<std::string>& more) {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (rank == 0) {
@@ -50,6 +50,7 @@ void run_dem_script(const std::string& script, const std::string& log) {
   }
   // Not "-screen none": some stock styles print without asking whether there is a screen.
   std::vector<std::string> words = {"liggghts", "-log", log, "-screen", "/dev/null"};
+  words.insert(words.end(), more.begin(), more.end());
   std::vector<char*> arguments;
   for (std::string& word : words)
     arguments.push_back(word.data());

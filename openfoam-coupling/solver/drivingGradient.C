@@ -67,6 +67,11 @@ void drivingGradient::update() {
   }
 }
 
+void drivingGradient::resume(scalar G) {
+  G_ = G;
+  state_.set("gradient", G_ * rho_);
+}
+
 scalar drivingGradient::target() const {
   return value_->value(mesh_.time().timeOutputValue());
 }

@@ -33,10 +33,12 @@ class PromptFluid : public link::FluidPeer {
     terms.offered = dem.needed;
     return terms;
   }
-  void meet(const link::Meeting&, const link::ParticleArrays& particles, const fluid::FluidSamples& samples) override {
+  int meet(const link::Meeting&, const link::ParticleArrays& particles, const fluid::FluidSamples& samples) override {
     for (std::size_t i = 0; i < particles.count; ++i)
       samples.fraction[i] = particles.position[i][0];
+    return 0;
   }
+  std::string checkpoint(const link::CheckpointMark&) override { return ""; }
   void run_ended() override {}
 };
 

@@ -86,8 +86,16 @@ inline std::vector<link::wire::Bytes> valid_messages() {
   dem.needed = kAsked;
   link::FluidTerms fluid;
   fluid.offered = kKnownQuantities;
-  return {encode(dem),           encode(fluid),     encode_refusal("no"),         meeting_message(false),
-          meeting_message(true), samples_message(), encode_bare(Kind::run_ended), encode_bare(Kind::farewell)};
+  return {encode(dem),
+          encode(fluid),
+          encode_refusal("no"),
+          meeting_message(false),
+          meeting_message(true),
+          samples_message(),
+          encode_bare(Kind::run_ended),
+          encode_bare(Kind::farewell),
+          encode(link::CheckpointMark{640, 7}),
+          encode_checkpointed("/case/checkpoints/fluid-640.complete")};
 }
 
 /// Decodes a message as whoever receives it would, and uses all of what is accepted. True if it was accepted.
@@ -108,6 +116,12 @@ inline bool accepted(const std::byte* data, std::size_t size) {
     }
     case Kind::refusal:
       (void)decode_refusal(message);
+      break;
+    case Kind::checkpoint:
+      (void)decode_checkpoint(message);
+      break;
+    case Kind::checkpointed:
+      (void)decode_checkpointed(message);
       break;
     case Kind::meeting: {
       // Rows with and without extents: whichever fits.

@@ -54,9 +54,12 @@ TEST(Wire, TermsArriveAsSent) {
   dem.domain.low[2] = -0.5;
   dem.domain.high[0] = 0.25;
   dem.domain.periodic[2] = true;
+  dem.resumes = {640, 0x8000000000000001};
   const DemTerms got = wire::decode_dem_terms(view(wire::encode(dem)));
   EXPECT_EQ(got.time_step, dem.time_step);
   EXPECT_EQ(got.interval, 64);
+  EXPECT_EQ(got.resumes.step, 640);
+  EXPECT_EQ(got.resumes.id, 0x8000000000000001u);
   EXPECT_EQ(got.particles, 1212);
   EXPECT_EQ(got.needed, kAsked);
   EXPECT_TRUE(got.extents);
@@ -78,8 +81,10 @@ TEST(Wire, TermsArriveAsSent) {
   fluid.rheology = {2, 0.5, 0.8};
   fluid.has_gravity = true;
   fluid.gravity[2] = -9.8;
+  fluid.layout = 99;
   const FluidTerms back = wire::decode_fluid_terms(view(wire::encode(fluid)));
   EXPECT_EQ(back.time_step, 5e-3);
+  EXPECT_EQ(back.layout, 99u);
   EXPECT_EQ(back.offered, wire::kKnownQuantities);
   EXPECT_EQ(back.fluid_density, 1000);
   EXPECT_EQ(back.domain.high[1], 2);
@@ -173,13 +178,25 @@ TEST(Wire, EveryTruncationIsRefused) {
       EXPECT_FALSE(accepted(cut.data(), cut.size()));
       if (size < wire::kHeaderBytes)
         continue;
-      // And with a header that states the shorter length; a refusal may have any.
+      // And with a header that states the shorter length; a text may have any.
       const Bytes honest = with(cut, kLengthAt, std::uint64_t(size - wire::kHeaderBytes));
-      if (wire::kind_of(view(message)) != wire::Kind::refusal) {
+      const wire::Kind kind = wire::kind_of(view(message));
+      if (kind != wire::Kind::refusal && kind != wire::Kind::checkpointed) {
         EXPECT_FALSE(accepted(honest.data(), honest.size()));
       }
     }
   }
+}
+
+TEST(Wire, CheckpointsAndSignalsArriveAsSent) {
+  EXPECT_EQ(wire::decode_checkpoint(view(wire::encode(CheckpointMark{640, 7}))).id, 7u);
+  EXPECT_EQ(wire::decode_checkpointed(view(wire::encode_checkpointed("/a\nb"))), "/a?b");
+  expect_refusal([&] { wire::decode_checkpoint(view(wire::encode(CheckpointMark{-1, 7}))); }, "before the beginning");
+  Bytes samples = samples_message();
+  wire::write_samples_head(samples.data(), kRows, kAsked, 15);
+  EXPECT_EQ(wire::decode_samples(view(samples), kRows, kAsked).stop_signal, 15);
+  wire::write_samples_head(samples.data(), kRows, kAsked, 1000);
+  expect_refusal([&] { wire::decode_samples(view(samples), kRows, kAsked); }, "signal that does not exist");
 }
 
 TEST(Wire, CountsThatAreNotThereAreRefusedBeforeAnythingIsAllocated) {

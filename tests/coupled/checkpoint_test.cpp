@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A run that goes on from a checkpoint gives the digits of the run that was not interrupted; what is damaged is not
+// used.
+#include "coupled/checkpoint_scene.h"
+#include "support/run_program.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace {
+
+using namespace eccentra::test;
+namespace fs = std::filesystem;
+
+constexpr int kMeetings = 24;
+constexpr int kSteps = kMeetings * kStepsPerMeeting;
+/// Checkpoints after 8, 16 and 24 meetings; the last two are kept.
+const char* const kWords = "solver every 40 checkpoint 8";
+constexpr int kMiddle = 16 * kStepsPerMeeting;
+
+std::string contents(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Rows of the table without the columns that tell wall-clock times.
+std::string physics_of(const fs::path& folder) {
+  std::ifstream in(folder / "postProcessing/eccentra/coupling.csv");
+  std::string line, all;
+  while (std::getline(in, line)) {
+    std::size_t at = 0;
+    for (int column = 0; at != std::string::npos; ++column) {
+      const std::size_t end = line.find(',', at);
+      if (column < 19 || column > 22)
+        all += line.substr(at, end == std::string::npos ? end : end - at) + ' ';
+      at = end == std::string::npos ? end : end + 1;
+    }
+    all += '\n';
+  }
+  return all;
+}
+
+ProgramResult again(const fs::path& folder, int ranks = 1) {
+  std::vector<std::string> words;
+  if (ranks > 1)
+    words = {"mpirun", "--oversubscribe", "--bind-to", "none", "-np", std::to_string(ranks)};
+  words.push_back(required_environment("ECCENTRA_BIN") + "/annulusFoam");
+  if (ranks > 1)
+    words.emplace_back("-parallel");
+  words.emplace_back("-resume");
+  ProgramOptions options;
+  options.directory = folder;
+  return run_program(words, options);
+}
+
+struct Result {
+  std::string bodies, table;
+};
+
+Result result_of(const fs::path& folder) {
+  return {contents(folder / "end.bodies"), physics_of(folder)};
+}
+
+/// Takes away what came after the middle: the run has been killed somewhere there.
+void forget_end(const fs::path& folder) {
+  fs::remove(folder / "end.bodies");
+  fs::remove_all(folder / "checkpoints" / std::to_string(kSteps));
+}
+
+void expect_same_digits(const BoxCase& box, const std::string& name, int ranks) {
+  const Outcome outcome = run(box, name, ranks);
+  ASSERT_EQ(outcome.status, 0) << outcome.text << contents(fs::path(outcome.folder) / "log.liggghts");
+  const Result straight = result_of(outcome.folder);
+  ASSERT_FALSE(straight.bodies.empty());
+  forget_end(outcome.folder);
+  const ProgramResult second = again(outcome.folder, ranks);
+  ASSERT_EQ(second.status, 0) << second.output << contents(fs::path(outcome.folder) / "log.liggghts");
+  EXPECT_NE(second.output.find("goes on from checkpoint " + std::to_string(kMiddle)), std::string::npos)
+      << second.output;
+  const Result resumed = result_of(outcome.folder);
+  EXPECT_EQ(resumed.bodies, straight.bodies);
+  EXPECT_EQ(resumed.table, straight.table);
+}
+
+} // namespace
+
+TEST(Checkpoint, SpheresGoOnWithTheSameDigits) {
+  expect_same_digits(stirred_box(kWords, kSteps, false), "spheres", 1);
+}
+
+TEST(Checkpoint, SpheresOnTwoRanksGoOnWithTheSameDigits) {
+  expect_same_digits(stirred_box(kWords, kSteps, false), "spheres_ranks", 2);
+}
+
+TEST(Checkpoint, ClustersAndTheVerdictOfTheScreenGoOnWithTheSameDigits) {
+  expect_same_digits(stirred_box(kWords, kSteps, true, true), "clusters", 1);
+}
+
+TEST(Checkpoint, DamagedOnesArePassedOver) {
+  const Outcome outcome = run(stirred_box(kWords, kSteps, false), "damaged");
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  const fs::path folder = outcome.folder;
+  const Result straight = result_of(folder);
+  // As a crash while writing would leave it, or a disk that lies.
+  fs::resize_file(folder / "checkpoints" / std::to_string(kSteps) / "dem.restart", 1000);
+  fs::create_directories(folder / "checkpoints" / (std::to_string(kSteps + 320) + ".tmp"));
+  ProgramResult second = again(folder);
+  EXPECT_EQ(second.status, 0) << second.output;
+  EXPECT_NE(second.output.find("has 1000 bytes instead of"), std::string::npos) << second.output;
+  EXPECT_NE(second.output.find("goes on from checkpoint " + std::to_string(kMiddle)), std::string::npos);
+  EXPECT_EQ(result_of(folder).bodies, straight.bodies);
+  // And on the fluid's side: one byte.
+  std::fstream field(folder / "checkpoints" / ("fluid-" + std::to_string(kSteps)) / "U", std::ios::in | std::ios::out);
+  field.seekp(2000);
+  field.put('#');
+  field.close();
+  second = again(folder);
+  EXPECT_EQ(second.status, 0) << second.output;
+  EXPECT_NE(second.output.find("is damaged"), std::string::npos) << second.output;
+  EXPECT_EQ(result_of(folder).bodies, straight.bodies);
+  EXPECT_EQ(result_of(folder).table, straight.table);
+}
