@@ -20,6 +20,7 @@ inline BoxCase stirred_box(const std::string& link, int steps, bool clusters, bo
   box.size[2] = 0.054;
   box.cells[2] = 9;
   box.periodic[2] = false;
+  box.viscosity = 0.05;
   box.coupling = "voidFraction diffusion;";
   std::string beginning, bodies;
   for (int i = 0; i < 32; ++i) {
