@@ -384,6 +384,24 @@ void FixWallGranCluster::fill(int m, const WallTouch& touch) {
   block.share[m] = touch.share;
 }
 
+Eigen::Vector3d FixWallGranCluster::rolling_torque(int m, int i, int wall_type, const Eigen::Vector3d& wall_spin,
+                                                   WallHistoryEntry& entry) {
+  const ContactBlock& block = *block_;
+  const Eigen::Vector3d normal(block.normal[0][m], block.normal[1][m], block.normal[2][m]);
+  const Eigen::Vector3d force(block.force[0][m], block.force[1][m], block.force[2][m]);
+  const double kn = 4. / 3. * block.youngs[m] * block.contact_radius[m];
+  const double kt = 8 * block.shear_modulus[m] * block.contact_radius[m];
+  // Dashpots as contact_forces has them.
+  const bool stock = words_.damping == DampingLaw::stock;
+  const double factor = (stock ? 2 * std::sqrt(5. / 6.) : 2.) * block.damping[m] * block.share[m];
+  const double gamma_n = factor * std::sqrt((stock ? 1.5 : 1.) * kn * block.mass[m]);
+  const double gamma_t = factor * std::sqrt((stock ? 1. : 2. / 7.) * kt * block.mass[m]);
+  return words_.rolling->torque({i, atom->type[i], wall_type, block.mass[m], kn, kn * block.overlap[m],
+                                 block.radius_a[m], normal, vector3(atom->omega[i]) - wall_spin, wall_spin,
+                                 entry.rolling.data(), !update->setupflag, force.dot(normal), kt, gamma_n,
+                                 words_.tangential_damping ? gamma_t : 0.0});
+}
+
 void FixWallGranCluster::scatter(int m, const WallTouch& touch) {
   const ContactBlock& block = *block_;
   const int i = touch.atom;
@@ -391,12 +409,8 @@ void FixWallGranCluster::scatter(int m, const WallTouch& touch) {
   touch.history->shear = row(block.history);
   const Eigen::Vector3d force = row(block.force);
   Eigen::Vector3d torque = row(block.torque);
-  if (words_.rolling && is_plain_sphere(i)) {
-    const double kn = 4. / 3. * block.youngs[m] * block.contact_radius[m];
-    torque += words_.rolling->torque({i, atom->type[i], touch.wall_type, atom->rmass[i], kn, kn * touch.overlap,
-                                      touch.radius, touch.normal, vector3(atom->omega[i]) - touch.wall_omega,
-                                      touch.wall_omega, touch.history->rolling.data(), !update->setupflag});
-  }
+  if (words_.rolling && is_plain_sphere(i))
+    torque += rolling_torque(m, i, touch.wall_type, touch.wall_omega, *touch.history);
   add(atom->f[i], force);
   add(atom->torque[i], torque);
   Eigen::Vector3d from_reference = vector3(atom->x[i]);

@@ -104,6 +104,9 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   void evaluate(int n, bool advance);
   void fill(int m, const WallTouch& touch);
   void scatter(int m, const WallTouch& touch);
+  /// Torque [N m] of the rolling model on atom i from place m of the block, evaluated.
+  Eigen::Vector3d rolling_torque(int m, int i, int wall_type, const Eigen::Vector3d& wall_spin,
+                                 WallHistoryEntry& entry);
   bool is_plain_sphere(int i) const;
 
   WallWords words_;

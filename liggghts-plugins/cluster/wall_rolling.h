@@ -32,6 +32,10 @@ struct WallRollingContact {
   Eigen::Vector3d wall_spin;        ///< angular velocity of the wall [rad/s]
   double* memory;                   ///< 3 values that this contact keeps from step to step; they migrate and restart
   bool advance;                     ///< false while setting up: memory is to be read only
+  double normal_force;              ///< F_n with its dashpot [N]
+  double tangential_stiffness;      ///< kt [N/m]
+  double normal_damping;            ///< gamma_n [N s/m]
+  double tangential_damping;        ///< gamma_t [N s/m]
 };
 
 /// A rolling-friction model at walls. It acts on plain spheres: clusters roll by their shape.

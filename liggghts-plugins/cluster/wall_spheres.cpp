@@ -124,13 +124,8 @@ template <class Wall> void FixWallGranCluster::scatter_spheres(const Wall& wall,
       from[k] = atom->x[i][k] - wall.reference[k];
     }
     if (words_.rolling) {
-      const double kn = 4. / 3. * block.youngs[m] * block.contact_radius[m];
-      const Eigen::Vector3d normal(block.normal[0][m], block.normal[1][m], block.normal[2][m]);
       const Eigen::Vector3d spin(wall.omega[0], wall.omega[1], wall.omega[2]);
-      const Eigen::Vector3d omega(atom->omega[i][0], atom->omega[i][1], atom->omega[i][2]);
-      const Eigen::Vector3d rolling = words_.rolling->torque(
-          {i, atom->type[i], words_.type, block.mass[m], kn, kn * block.overlap[m], block.radius_a[m], normal,
-           omega - spin, spin, entry.rolling.data(), !update->setupflag});
+      const Eigen::Vector3d rolling = rolling_torque(m, i, words_.type, spin, entry);
       for (int k = 0; k < 3; ++k)
         torque[k] += rolling[k];
     }
