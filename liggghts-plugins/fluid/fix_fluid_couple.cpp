@@ -39,6 +39,14 @@ constexpr int kInsertedMass = 1;
 constexpr double kLongestWait = 1e6; ///< [s]
 
 using RowsOfThree = const double (*)[3];
+
+/// As Domain::remap, which never comes back from a position that has blown up.
+double wrapped(double x, double low, double high) {
+  if (x >= low && x < high)
+    return x;
+  const double inside = x - (high - low) * std::floor((x - low) / (high - low));
+  return inside < low || inside >= high ? low : inside;
+}
 } // namespace
 
 FixFluidCouple::FixFluidCouple(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {
@@ -68,7 +76,7 @@ void FixFluidCouple::connect() {
   if (link_ != "socket")
     return;
   try {
-    own_peer_ = std::make_unique<link::SocketPeer>(world, address_, patience_);
+    own_peer_ = std::make_unique<link::SocketPeer>(world, link::Address(address_, keys_), patience_);
   } catch (const link::Refusal& refusal) {
     refuse(refusal.what());
   }
@@ -104,6 +112,8 @@ void FixFluidCouple::read(const std::vector<std::string>& words) {
       if (end == text.c_str() || *end || number < 1 || number > 1000000000L)
         refuse(keyword + " has '" + text + "': give a whole number of " + what + " from 1 on");
       (keyword == "every" ? interval_ : checkpoint_every_) = static_cast<int>(number);
+    } else if (keyword == "keys") {
+      keys_ = value("a folder made by eccentra-keys");
     } else if (keyword == "timeout" || keyword == "wait") {
       const std::string& text = value("seconds");
       char* end = nullptr;
@@ -114,16 +124,16 @@ void FixFluidCouple::read(const std::vector<std::string>& words) {
       waits = true;
     } else {
       refuse("unknown word '" + keyword +
-             "': known are link solver, link socket ADDRESS, every N, checkpoint M, timeout SECONDS and wait "
-             "SECONDS");
+             "': known are link solver, link socket ADDRESS, every N, checkpoint M, keys FOLDER, timeout SECONDS "
+             "and wait SECONDS");
     }
   }
   if (link_.empty())
     refuse(
         "the word 'link' is missing: add link solver (the fluid solver hosts this script) or link socket ADDRESS (it "
         "runs apart)");
-  if (waits && link_ != "socket")
-    refuse("timeout and wait belong to link socket: drop them");
+  if ((waits || !keys_.empty()) && link_ != "socket")
+    refuse("keys, timeout and wait belong to link socket: drop them");
   if (interval_ == 0)
     refuse("the word 'every' is missing: add every N, the DEM steps from one meeting with the fluid to the next");
 }
@@ -253,7 +263,9 @@ void FixFluidCouple::pack() {
     double* x = position_.data() + 3 * std::size_t(i);
     std::copy_n(atom->x[i], 3, x);
     // Between neighbour rebuilds LIGGGHTS lets positions run out of a periodic box.
-    domain->remap(x);
+    for (int k = 0; k < 3; ++k)
+      if (domain->periodicity[k])
+        x[k] = wrapped(x[k], domain->boxlo[k], domain->boxhi[k]);
     volume_[i] = forces_->particle_volume(i);
     if (bodies_)
       pack_extent(i, extent_.data() + link::kExtentDoubles * std::size_t(i));

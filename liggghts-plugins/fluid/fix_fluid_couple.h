@@ -71,6 +71,7 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
 
   std::string link_;
   std::string address_; ///< of link socket
+  std::string keys_;    ///< folder
   link::Patience patience_;
   int interval_ = 0;
   int countdown_ = 0;

@@ -16,6 +16,7 @@
 #include "write_restart.h"
 
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -48,6 +49,11 @@ class FileInMemory {
   std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
   std::vector<char> contents() const {
     std::vector<char> bytes(static_cast<std::size_t>(lseek(descriptor_, 0, SEEK_END)));
+    // A process whose files may not grow may not grow this one either.
+    rlimit limit{};
+    if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && bytes.size() >= limit.rlim_cur)
+      throw link::Refusal("cannot write a checkpoint: files of this process may have " +
+                          std::to_string(limit.rlim_cur) + " bytes only (ulimit -f): raise the limit");
     std::size_t done = 0;
     while (done < bytes.size()) {
       const ssize_t count = pread(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));

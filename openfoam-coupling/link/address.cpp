@@ -54,7 +54,7 @@ bool is_loopback(const std::string& host) {
   return *at == '\0';
 }
 
-std::string tcp(const std::string& words, const std::string& rest) {
+std::string tcp(const std::string& words, const std::string& rest, bool keys) {
   const auto colon = rest.rfind(':');
   if (colon == std::string::npos || colon == 0)
     refuse(words, "lacks a host or a port: give tcp://127.0.0.1:PORT");
@@ -66,19 +66,24 @@ std::string tcp(const std::string& words, const std::string& rest) {
     refuse(words, "has no port from 1 to " + std::to_string(kMostPort) + ": give tcp://127.0.0.1:PORT");
   if (host == "localhost")
     host = "127.0.0.1";
-  if (!is_loopback(host))
-    refuse(words, "can be reached from other machines, which needs keys on both sides that this version does not have: "
-                  "use ipc:///path or tcp://127.0.0.1:PORT (between machines: through an ssh tunnel)");
+  if (host.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_:[]*") !=
+      std::string::npos)
+    refuse(words, "has a host with strange characters: give a name or a number, such as tcp://10.0.0.1:5555");
+  if (!is_loopback(host) && !keys)
+    refuse(words,
+           "can be reached from other machines, which needs keys on both sides: make them with eccentra-keys FOLDER "
+           "and name the folder after the word keys, or use ipc:///path or tcp://127.0.0.1:PORT");
   return "tcp://" + host + ':' + std::to_string(number);
 }
 
 } // namespace
 
-std::string endpoint_of(const std::string& words) {
+std::string endpoint_of(const Address& address) {
+  const std::string& words = address.words;
   if (starts_with(words, "ipc://"))
     return unix_path(words, words.substr(6));
   if (starts_with(words, "tcp://"))
-    return tcp(words, words.substr(6));
+    return tcp(words, words.substr(6), !address.keys.empty());
   if (words.find("://") != std::string::npos)
     refuse(words, "is neither ipc:///path nor tcp://host:port");
   return unix_path(words, words);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 namespace eccentra::link {
 
@@ -13,9 +14,19 @@ struct Patience {
   double arrival = 5.0; ///< until a peer that has not come yet counts as missing
 };
 
-/// The endpoint that `words` names: ipc:///path, a plain path, or tcp://host:port with a host of this machine. Throws
-/// Refusal with one sentence for anything else; addresses that other machines reach need keys, which are not there.
-std::string endpoint_of(const std::string& words);
+/// Where, and with which keys.
+struct Address {
+  std::string words; ///< ipc:///path, a plain path, or tcp://host:port
+  std::string keys;  ///< folder of the keys (link/keys.h); empty: none
+
+  // Words alone are an address.
+  Address(std::string w, std::string k = "") : words(std::move(w)), keys(std::move(k)) {}
+  Address(const char* w) : words(w) {}
+};
+
+/// The endpoint that the words name. Throws Refusal with one sentence for anything else, and for an address that other
+/// machines reach where there are no keys.
+std::string endpoint_of(const Address& address);
 
 /// Throws Refusal unless both times are positive and finite.
 void check(const Patience& patience);

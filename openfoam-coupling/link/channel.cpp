@@ -5,6 +5,9 @@
 // apart.
 #include "link/channel.h"
 
+#include "link/key_guard.h"
+#include "link/keys.h"
+
 #include <zmq.hpp>
 
 #include <sys/socket.h>
@@ -78,8 +81,10 @@ wire::View Channel::Message::view() const {
 struct Channel::State {
   Side side;
   std::string address;
+  std::string keys; ///< folder
   Patience patience;
   zmq::context_t context;
+  std::unique_ptr<KeyGuard> guard; ///< of the fluid side with keys
   zmq::socket_t socket;
   zmq::socket_t monitor;
   Clock::time_point opened = Clock::now();
@@ -90,9 +95,10 @@ struct Channel::State {
   bool came = false;         ///< somebody who speaks ZeroMQ is or was there
   bool heard = false;        ///< it has sent a message
   bool gone = false;
+  bool turned_away = false; ///< the other side does not take this one's keys, or has none
 
-  State(Side s, const std::string& a, const Patience& p)
-      : side(s), address(a), patience(p),
+  State(Side s, const Address& a, const Patience& p)
+      : side(s), address(a.words), keys(a.keys), patience(p),
         socket(context, s == Side::dem ? zmq::socket_type::dealer : zmq::socket_type::router),
         monitor(context, zmq::socket_type::pair) {}
 
@@ -100,17 +106,19 @@ struct Channel::State {
 
   void open() {
     check(patience);
-    const std::string endpoint = endpoint_of(address);
+    const std::string endpoint = endpoint_of({address, keys});
+    use_keys();
     socket.set(zmq::sockopt::linger, kLinger);
     socket.set(zmq::sockopt::maxmsgsize, static_cast<int64_t>(wire::most_bytes()));
     socket.set(zmq::sockopt::heartbeat_ivl, milliseconds(kAskAfter * patience.silence));
     socket.set(zmq::sockopt::heartbeat_timeout, milliseconds(kAnswerWithin * patience.silence));
     socket.set(zmq::sockopt::handshake_ivl, milliseconds(patience.silence));
     socket.set(zmq::sockopt::reconnect_ivl, kReconnect);
-    socket.set(zmq::sockopt::ipv6, endpoint.find("[::1]") != std::string::npos);
+    socket.set(zmq::sockopt::ipv6, endpoint.find('[') != std::string::npos);
     if (zmq_socket_monitor(socket.handle(), kMonitor,
                            ZMQ_EVENT_ACCEPTED | ZMQ_EVENT_CONNECTED | ZMQ_EVENT_HANDSHAKE_SUCCEEDED |
-                               ZMQ_EVENT_DISCONNECTED) != 0)
+                               ZMQ_EVENT_HANDSHAKE_FAILED_AUTH | ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL |
+                               ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL | ZMQ_EVENT_DISCONNECTED) != 0)
       throw Refusal(std::string("the link cannot watch its connection: ") + zmq_strerror(zmq_errno()));
     monitor.connect(kMonitor);
     if (side == Side::dem) {
@@ -134,6 +142,22 @@ struct Channel::State {
       bound_path = endpoint.substr(std::strlen("ipc://"));
   }
 
+  /// Before the socket binds or connects.
+  void use_keys() {
+    if (keys.empty())
+      return;
+    const bool fluid = side == Side::fluid;
+    const Keys known = read_keys(keys, fluid ? "fluid" : "dem", fluid ? "dem" : "fluid");
+    socket.set(zmq::sockopt::curve_publickey, known.own_public);
+    socket.set(zmq::sockopt::curve_secretkey, known.own_secret);
+    if (fluid) {
+      socket.set(zmq::sockopt::curve_server, true);
+      guard = std::make_unique<KeyGuard>(context, known.peer_public);
+    } else {
+      socket.set(zmq::sockopt::curve_serverkey, known.peer_public);
+    }
+  }
+
   /// Takes in what the monitor has to say.
   void read_monitor() {
     zmq::message_t event, endpoint;
@@ -147,6 +171,10 @@ struct Channel::State {
         connections.insert(value);
       else if (what == ZMQ_EVENT_HANDSHAKE_SUCCEEDED)
         came = true;
+      else if (what == ZMQ_EVENT_HANDSHAKE_FAILED_AUTH || what == ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL ||
+               what == ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL)
+        // The fluid side goes on waiting: it was a stranger. The DEM side has found the address that it was told.
+        turned_away = turned_away || side == Side::dem;
       else if (what == ZMQ_EVENT_DISCONNECTED && connections.erase(value) > 0)
         gone = gone || (heard ? value == peer : came && connections.empty());
     }
@@ -203,6 +231,16 @@ struct Channel::State {
     throw Refusal(std::string(other()) + " at '" + address + "' has gone" + remedy);
   }
 
+  [[noreturn]] void barred() const {
+    throw Refusal("the fluid side at '" + address + "' does not let this side in: " +
+                  (keys.empty()
+                       ? std::string("it has keys and this side has none, or it is no Eccentra; name their folder "
+                                     "after the word keys")
+                       : "it has no keys or others than those in '" + keys +
+                             "'; give both sides a copy of one folder "
+                             "made by eccentra-keys"));
+  }
+
   [[noreturn]] void missing() const {
     char seconds[32];
     std::snprintf(seconds, sizeof seconds, "%g", patience.arrival);
@@ -213,7 +251,7 @@ struct Channel::State {
   }
 };
 
-Channel::Channel(Side side, const std::string& address, const Patience& patience)
+Channel::Channel(Side side, const Address& address, const Patience& patience)
     : state_(std::make_unique<State>(side, address, patience)) {
   state_->open();
 }
@@ -239,6 +277,8 @@ Channel::Message Channel::receive() {
         throw Refusal(wire::decode_refusal(message.view()));
       return message;
     }
+    if (s.turned_away && !s.came)
+      s.barred();
     if (s.gone)
       s.lost();
     long wait = -1;
@@ -273,6 +313,7 @@ void Channel::close() noexcept {
     state_->socket.set(zmq::sockopt::linger, 0);
   state_->monitor.close();
   state_->socket.close();
+  state_->guard.reset();
   state_->context.close();
   if (!state_->bound_path.empty())
     ::unlink(state_->bound_path.c_str());

@@ -19,7 +19,7 @@ struct FluidServer::Command {
   CheckpointMark mark;
 };
 
-FluidServer::FluidServer(MPI_Comm ranks, const std::string& address, const Patience& patience, std::int32_t cells)
+FluidServer::FluidServer(MPI_Comm ranks, const Address& address, const Patience& patience, std::int32_t cells)
     : ranks_(ranks) {
   int rank = 0, size = 1;
   MPI_Comm_rank(ranks, &rank);

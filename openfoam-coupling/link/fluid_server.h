@@ -21,7 +21,7 @@ class FluidServer {
  public:
   /// Collective over `ranks`: binds the address. `cells` of this rank's mesh bound what a ticket may name. Throws
   /// Refusal on every rank if the address cannot be used.
-  FluidServer(MPI_Comm ranks, const std::string& address, const Patience& patience, std::int32_t cells);
+  FluidServer(MPI_Comm ranks, const Address& address, const Patience& patience, std::int32_t cells);
   ~FluidServer();
 
   /// Serves one DEM job until it says farewell. Collective. Throws Refusal on every rank if it does not come, goes

@@ -9,7 +9,7 @@
 
 namespace eccentra::link {
 
-SocketPeer::SocketPeer(MPI_Comm ranks, const std::string& address, const Patience& patience) : ranks_(ranks) {
+SocketPeer::SocketPeer(MPI_Comm ranks, const Address& address, const Patience& patience) : ranks_(ranks) {
   on_root(ranks_, [&] {
     channel_ = std::make_unique<Channel>(Channel::Side::dem, address, patience);
     return wire::Bytes();

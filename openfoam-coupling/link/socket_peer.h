@@ -20,7 +20,7 @@ class SocketPeer : public FluidPeer {
  public:
   /// Collective over `ranks`; returns before the fluid side has come. Throws Refusal on every rank if the address
   /// cannot be used.
-  SocketPeer(MPI_Comm ranks, const std::string& address, const Patience& patience);
+  SocketPeer(MPI_Comm ranks, const Address& address, const Patience& patience);
   /// Tells the fluid side that all went well, unless it did not.
   ~SocketPeer() override;
 

@@ -174,18 +174,6 @@ link::Extents extentsOf(const fvMesh& mesh) {
   return extents;
 }
 
-/// Changes with the cells of any rank (FNV-1a).
-std::uint64_t layoutOf(const fvMesh& mesh) {
-  List<label> cells(Pstream::nProcs());
-  cells[Pstream::myProcNo()] = mesh.nCells();
-  Pstream::gatherList(cells);
-  Pstream::scatterList(cells);
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const label count : cells)
-    hash = (hash ^ std::uint64_t(count)) * 0x100000001b3;
-  return hash;
-}
-
 } // namespace
 
 coupledRun::coupledRun(fvMesh& mesh, bool verbose, bool resume)
@@ -198,9 +186,9 @@ bool coupledRun::wanted(const Time& time) {
 }
 
 void coupledRun::run() {
-  refuseUnknownKeywords(properties_,
-                        {"link", "demScript", "demLog", "voidFraction", "length", "diffusionSteps", "momentum",
-                         "mostSolid", "fractionFloor", "tolerance", "report", "runIn", "address", "timeout", "wait"});
+  refuseUnknownKeywords(properties_, {"link", "demScript", "demLog", "voidFraction", "length", "diffusionSteps",
+                                      "momentum", "mostSolid", "fractionFloor", "tolerance", "report", "runIn",
+                                      "address", "keys", "timeout", "wait"});
   const word link(properties_.getOrDefault<word>("link", "solver"));
   if (link != "solver" && link != "socket")
     throw inputError(properties_, "link", link, "use solver or socket");
@@ -209,6 +197,7 @@ void coupledRun::run() {
     throw inputError(properties_, "report", every, "give a whole number of meetings, at least 1");
   const runningMpi mpi;
   link::catch_stop_signals("annulusFoam");
+  link::end_on_arithmetic_fault("annulusFoam");
   if (link == "solver")
     hostScript();
   else
@@ -241,7 +230,8 @@ void coupledRun::serveSocket() {
   if (!chDir(time_.globalPath()))
     throw inputError("cannot enter the case folder " + time_.globalPath());
   try {
-    link::FluidServer server(MPI_COMM_WORLD, address, patience, mesh_.nCells());
+    link::FluidServer server(MPI_COMM_WORLD, {address, properties_.getOrDefault<fileName>("keys", "")}, patience,
+                             mesh_.nCells());
     Info << "waiting for a DEM script with fix fluid/couple link socket " << address << endl;
     server.serve(*this);
   } catch (const link::Refusal&) {
@@ -304,6 +294,8 @@ std::string coupledRun::checkpoint(const link::CheckpointMark& mark) {
 
 link::FluidTerms coupledRun::agree(const link::DemTerms& dem) {
   const trapping on(traps_);
+  if (!flow_ && dem.resumes.step < 0)
+    fluidCheckpoint::begin(time_, resume_);
   if (!flow_)
     flow_ = std::make_unique<averagedFlow>(mesh_, averagedFlow::particles::coupled);
   link::FluidTerms terms;
@@ -313,7 +305,7 @@ link::FluidTerms coupledRun::agree(const link::DemTerms& dem) {
   terms.fluid_density = flow_->rho();
   terms.rheology = statedRheology(flow_->rheology(), flow_->rho());
   stateGravity(mesh_, terms);
-  terms.layout = layoutOf(mesh_);
+  terms.layout = fluidCheckpoint::layoutOf(mesh_);
   const std::string text = link::disagreement(dem, terms);
   if (!text.empty())
     throw link::Refusal(text);

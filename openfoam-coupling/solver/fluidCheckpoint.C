@@ -12,6 +12,7 @@
 #include "zeroGradientFvPatchFields.H"
 
 #include <filesystem>
+#include <sstream>
 #include <string>
 
 namespace eccentra::fluidCheckpoint {
@@ -168,6 +169,38 @@ std::string write(averagedFlow& flow, exchange::particleExchange& exchange, cons
   });
   removeOthers(time, mark.step);
   return recordOf(time, mark.step);
+}
+
+// FNV-1a over the numbers of cells.
+std::uint64_t layoutOf(const fvMesh& mesh) {
+  List<label> cells(Pstream::nProcs());
+  cells[Pstream::myProcNo()] = mesh.nCells();
+  Pstream::gatherList(cells);
+  Pstream::scatterList(cells);
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const label count : cells)
+    hash = (hash ^ std::uint64_t(count)) * 0x100000001b3;
+  return hash;
+}
+
+void begin(Time& time, bool again) {
+  const std::string path = time.globalPath() / kFolder / "start";
+  const std::optional<link::Manifest> earlier = again ? link::read_record(path) : std::nullopt;
+  if (earlier) {
+    const scalar usual = time.deltaTValue();
+    time.setTime(std::stod(earlier->note("time")), 0);
+    time.setDeltaT(usual, false);
+    return;
+  }
+  std::ostringstream value;
+  value.precision(kAllDigits);
+  value << time.value();
+  together([&] {
+    if (!Pstream::master())
+      return;
+    std::filesystem::create_directories(std::filesystem::path(path).parent_path());
+    link::write_record(path, {0, 0}, {{"time", value.str()}});
+  });
 }
 
 bool whole(const fvMesh& mesh, const link::CheckpointMark& mark, std::string& why) {

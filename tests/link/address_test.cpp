@@ -27,6 +27,13 @@ TEST(Address, ThatOtherMachinesReachIsRefused) {
     EXPECT_THROW(endpoint_of(words), Refusal) << words;
 }
 
+TEST(Address, ThatOtherMachinesReachIsTakenWithKeys) {
+  EXPECT_EQ(endpoint_of({"tcp://0.0.0.0:5555", "keys"}), "tcp://0.0.0.0:5555");
+  EXPECT_EQ(endpoint_of({"tcp://*:5555", "keys"}), "tcp://*:5555");
+  EXPECT_EQ(endpoint_of({"tcp://node-7.cluster:5555", "keys"}), "tcp://node-7.cluster:5555");
+  EXPECT_THROW(endpoint_of({"tcp://a;b:5555", "keys"}), Refusal);
+}
+
 TEST(Address, ThatIsNoneIsRefused) {
   const std::string endless = "ipc:///" + std::string(200, 'x');
   for (const char* words :

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -59,6 +60,24 @@ class BackgroundJob {
       }
     }
     return code_;
+  }
+
+  /// No file that it writes may grow beyond this: a disk that is full.
+  void limit_files(rlim_t bytes) const {
+    const rlimit limit = {bytes, bytes};
+    prlimit(process_, RLIMIT_FSIZE, &limit, nullptr);
+  }
+
+  /// The exit code so far, as wait() has it.
+  int code() const { return code_; }
+
+  /// Its first child process, or -1.
+  int child() const {
+    const std::string id = std::to_string(process_);
+    std::ifstream in("/proc/" + id + "/task/" + id + "/children");
+    int first = -1;
+    in >> first;
+    return first;
   }
 
   std::string text() const {

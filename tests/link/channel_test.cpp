@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Messages cross; strangers at the address neither join nor disturb; an address is not taken from its owner.
 #include "link/channel.h"
+#include "link/keys.h"
 
 #include <gtest/gtest.h>
 #include <zmq.hpp>
 
+#include <poll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -165,4 +167,110 @@ TEST(Channel, PathOfAnotherProgramOrFileIsNotTaken) {
   std::ifstream(file) >> text;
   EXPECT_EQ(text, "kept");
   std::filesystem::remove(file);
+}
+
+namespace {
+
+/// Sits between two Unix sockets, passes everything on and keeps it. For one connection.
+class Eavesdropper {
+ public:
+  Eavesdropper(const std::string& from, const std::string& to) : from_(from), to_(to) {
+    sockaddr_un name = {};
+    name.sun_family = AF_UNIX;
+    std::strncpy(name.sun_path, from.c_str(), sizeof name.sun_path - 1);
+    listener_ = ::socket(AF_UNIX, SOCK_STREAM, 0);
+    EXPECT_EQ(::bind(listener_, reinterpret_cast<sockaddr*>(&name), sizeof name), 0);
+    EXPECT_EQ(::listen(listener_, 1), 0);
+    thread_ = std::thread([this] { pass_on(); });
+  }
+  ~Eavesdropper() { unlink(from_.c_str()); }
+  /// All that was said, when the connection has ended.
+  std::string heard() {
+    if (thread_.joinable())
+      thread_.join();
+    return heard_;
+  }
+
+ private:
+  void pass_on() {
+    const int ends[2] = {accept(listener_, nullptr, nullptr), plain_connection(to_)};
+    for (bool open = true; open;) {
+      pollfd items[2] = {{ends[0], POLLIN, 0}, {ends[1], POLLIN, 0}};
+      poll(items, 2, -1);
+      for (int k = 0; k < 2; ++k) {
+        char bytes[4096];
+        if (!items[k].revents)
+          continue;
+        const ssize_t count = read(ends[k], bytes, sizeof bytes);
+        open = open && count > 0 && write(ends[1 - k], bytes, count) == count;
+        heard_.append(bytes, count > 0 ? count : 0);
+      }
+    }
+    for (const int end : {ends[0], ends[1], listener_})
+      close(end);
+  }
+  std::string from_, to_, heard_;
+  int listener_ = -1;
+  std::thread thread_;
+};
+
+/// What somebody between the two sides can read of one message.
+std::string read_along(const std::string& name, const std::string& keys) {
+  const std::string real = path(name), tapped = path(name + "-tap");
+  Channel fluid(Side::fluid, {real, keys}, {});
+  Eavesdropper ear(tapped, real);
+  {
+    Channel dem(Side::dem, {tapped, keys}, {});
+    dem.send(Channel::Message(wire::encode_refusal("the secret recipe")));
+    expect_refusal([&] { fluid.receive(); }, "the secret recipe");
+  }
+  fluid.close();
+  return ear.heard();
+}
+
+std::string keys(const std::string& name) {
+  const std::string folder = path(name);
+  std::filesystem::remove_all(folder);
+  make_keys(folder);
+  return folder;
+}
+
+} // namespace
+
+TEST(Keys, WhoListensReadsNothing) {
+  EXPECT_NE(read_along("plain", "").find("the secret recipe"), std::string::npos) << "the ear itself is deaf";
+  const std::string heard = read_along("curve", keys("keys-ear"));
+  EXPECT_GT(heard.size(), 200u);
+  EXPECT_EQ(heard.find("the secret recipe"), std::string::npos);
+  EXPECT_EQ(heard.find("ECCENTRA"), std::string::npos);
+}
+
+TEST(Keys, StrangersDoNotJoin) {
+  const std::string place = path("strangers"), ours = keys("keys-ours"), others = keys("keys-others");
+  // One who knows the fluid's open half, but has a key of his own.
+  const std::string mixed = keys("keys-mixed");
+  std::filesystem::copy_file(ours + "/fluid.public", mixed + "/fluid.public",
+                             std::filesystem::copy_options::overwrite_existing);
+  Channel fluid(Side::fluid, {place, ours}, {});
+  std::thread listening([&] { EXPECT_EQ(wire::kind_of(fluid.receive().view()), wire::Kind::run_ended); });
+  for (const std::string& stranger : {std::string(), others, mixed}) {
+    Channel dem(Side::dem, {place, stranger}, {5.0, 1.0});
+    send_kind(dem, wire::Kind::farewell);
+    expect_refusal([&] { dem.receive(); }, stranger == others ? "the fluid side" : "does not let this side in");
+  }
+  Channel dem(Side::dem, {place, ours}, {});
+  send_kind(dem, wire::Kind::run_ended);
+  listening.join();
+}
+
+TEST(Keys, AreRefusedWhereTheyAreNoneOrOpenToOthers) {
+  const std::string folder = keys("keys-bad");
+  expect_refusal([&] { make_keys(folder); }, "cannot make the key file");
+  chmod((folder + "/dem.secret").c_str(), 0644);
+  expect_refusal([&] { read_keys(folder, "dem", "fluid"); }, "others may read");
+  chmod((folder + "/dem.secret").c_str(), 0600);
+  EXPECT_EQ(read_keys(folder, "dem", "fluid").own_secret.size(), 40u);
+  std::ofstream(folder + "/fluid.public") << "no key";
+  expect_refusal([&] { read_keys(folder, "dem", "fluid"); }, "holds no key");
+  expect_refusal([&] { Channel(Side::dem, {"tcp://10.0.0.1:5555", path("no-keys-here")}, {}); }, "cannot be read");
 }

@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Two jobs and what may befall them: each is noticed, said in one sentence, and what was reached is not lost.
+#include "coupled/checkpoint_scene.h"
+#include "link/two_jobs.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <random>
+
+namespace {
+
+using namespace eccentra::test;
+namespace fs = std::filesystem;
+
+constexpr int kEvery = 8; ///< meetings from one checkpoint to the next
+constexpr int kMeetings = 120;
+
+BoxCase two_job_scene(const std::string& name, int steps, const std::string& more = "") {
+  BoxCase box = stirred_box("socket " + socket_address(name) + " every 40 checkpoint " + std::to_string(kEvery) +
+                                " wait 60" + more,
+                            steps, false);
+  box.coupling += "link socket; address \"" + socket_address(name) + "\"; wait 60;";
+  return box;
+}
+
+constexpr int kSteps = kMeetings * kStepsPerMeeting;
+
+/// A coupled run that is caught in its middle. The DEM side runs in the case's folder, too.
+struct Jobs {
+  std::string folder;
+  std::unique_ptr<BackgroundJob> particles, fluid;
+
+  explicit Jobs(const std::string& name, int steps = 100 * kSteps) {
+    // A mesh is made by a first run, which ends at once for want of a DEM side.
+    BoxCase box = two_job_scene(name, steps);
+    const std::string patient = box.coupling;
+    box.coupling += " wait 0.01;";
+    folder = run(box, name).folder;
+    replace_in(folder + "/constant/couplingProperties", "wait 0.01;", "");
+    fs::remove_all(folder + "/postProcessing");
+  }
+  void start(const std::vector<std::string>& more = {}, int ranks = 1) {
+    fluid = std::make_unique<BackgroundJob>(folder, command("annulusFoam", more, 1), "log.fluid");
+    std::vector<std::string> words = {"-in", "in.dem", "-log", "none"};
+    words.insert(words.end(), more.begin(), more.end());
+    particles = std::make_unique<BackgroundJob>(folder, command("eccentra-dem", words, ranks), "log.dem");
+  }
+  /// Once some checkpoints are there.
+  void wait_for_middle() {
+    const auto begun = std::chrono::steady_clock::now();
+    while (eccentra::link::numbered_entries(folder + "/checkpoints", "").size() < 2) {
+      ASSERT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(60))
+          << fluid->text() << particles->text();
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
+  /// Both end within the time that the issue allows, not by a signal; both say `part`.
+  void expect_end(const std::string& of_fluid, const std::string& of_particles) {
+    const auto begun = std::chrono::steady_clock::now();
+    for (BackgroundJob* job : {fluid.get(), particles.get()}) {
+      const int code = job->wait(kNotice);
+      EXPECT_NE(code, 0);
+      EXPECT_NE(code, -1) << "still runs";
+    }
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), kNotice);
+    EXPECT_NE(fluid->text().find(of_fluid), std::string::npos) << fluid->text();
+    EXPECT_NE(particles->text().find(of_particles), std::string::npos) << particles->text();
+  }
+  void expect_done() {
+    EXPECT_EQ(particles->wait(kStart), 0) << particles->text();
+    EXPECT_EQ(fluid->wait(kStart), 0) << fluid->text();
+  }
+};
+
+/// The end of a run that nobody interrupts, from one job.
+std::string undisturbed() {
+  static const std::string bodies = [] {
+    const Outcome outcome =
+        run(stirred_box("solver every 40 checkpoint " + std::to_string(kEvery), kSteps, false), "undisturbed");
+    EXPECT_EQ(outcome.status, 0) << outcome.text;
+    return contents(outcome.folder + "/end.bodies");
+  }();
+  return bodies;
+}
+
+void expect_stop_by(int signal, const char* name, bool to_fluid) {
+  Jobs jobs(std::string("stop_") + name);
+  jobs.start();
+  jobs.wait_for_middle();
+  (to_fluid ? jobs.fluid : jobs.particles)->signal(signal);
+  const std::string sentence = std::string(name) + " asked to stop: checkpoint ";
+  jobs.expect_end(sentence, sentence);
+  // What it wrote is whole.
+  jobs.start({"-resume"});
+  EXPECT_TRUE(jobs.particles->says("goes on from checkpoint", kStart));
+  EXPECT_TRUE(jobs.fluid->says(" %  left", kStart)) << jobs.fluid->text() << jobs.particles->text();
+  EXPECT_EQ(jobs.particles->text().find("passed over"), std::string::npos) << jobs.particles->text();
+}
+
+} // namespace
+
+TEST(Faults, SigtermToTheParticles) {
+  expect_stop_by(SIGTERM, "SIGTERM", false);
+}
+
+TEST(Faults, SigintToTheFluid) {
+  expect_stop_by(SIGINT, "SIGINT", true);
+}
+
+TEST(Faults, WarningOfABatchSystemToTheFluid) {
+  expect_stop_by(SIGUSR1, "SIGUSR1", true);
+}
+
+TEST(Faults, RunKilledAtRandomMomentsEndsAsIfNothingHadBeen) {
+  Jobs jobs("killed", kSteps);
+  std::mt19937 random(std::random_device{}());
+  std::uniform_real_distribution<double> moment(0.3, 1.5);
+  for (int kill = 0; kill < 3; ++kill) {
+    jobs.start({"-resume"});
+    std::this_thread::sleep_for(std::chrono::duration<double>(moment(random)));
+    (kill % 2 ? jobs.fluid : jobs.particles)->signal(SIGKILL);
+    jobs.particles->wait(kNotice);
+    jobs.fluid->wait(kNotice);
+  }
+  jobs.start({"-resume"});
+  jobs.expect_done();
+  EXPECT_EQ(contents(jobs.folder + "/end.bodies"), undisturbed());
+}
+
+TEST(Faults, FullDiskOfTheParticles) {
+  Jobs jobs("full");
+  jobs.start();
+  jobs.wait_for_middle();
+  jobs.particles->limit_files(8192);
+  jobs.expect_end("cannot write", "cannot write");
+}
+
+TEST(Faults, FullDiskOfTheFluid) {
+  Jobs jobs("full_fluid");
+  jobs.start();
+  jobs.wait_for_middle();
+  jobs.fluid->limit_files(8192);
+  // Its own words do not fit on the disk either.
+  jobs.expect_end("", "cannot write");
+  // What was there before is whole.
+  jobs.start({"-resume"});
+  EXPECT_TRUE(jobs.fluid->says(" %  left", kStart)) << jobs.fluid->text() << jobs.particles->text();
+  EXPECT_EQ(jobs.particles->text().find("passed over"), std::string::npos) << jobs.particles->text();
+}
+
+TEST(Faults, FluidThatBlowsUp) {
+  Jobs jobs("overflow");
+  std::ofstream(jobs.folder + "/constant/flowProperties")
+      << "FoamFile { version 2.0; format ascii; class dictionary; object flowProperties; }\n"
+         "drive { type pressureGradient; gradient 1e300; direction (1 0 0); }\n";
+  jobs.start();
+  EXPECT_TRUE(jobs.fluid->says("has blown up", kStart)) << jobs.fluid->text();
+  jobs.expect_end("has blown up", "the fluid side");
+}
+
+TEST(Faults, ParticlesThatBlowUp) {
+  Jobs jobs("nan");
+  replace_in(jobs.folder + "/in.dem", "timestep 5e-5\nfix floor",
+             "timestep 5e-5\nfix mad all addforce 1e280 0 0\nfix floor");
+  jobs.start();
+  EXPECT_NE(jobs.particles->wait(kStart), 0);
+  EXPECT_NE(jobs.particles->code(), -1) << "hung";
+  EXPECT_GT(jobs.fluid->wait(kNotice), 0) << jobs.fluid->text();
+}
+
+TEST(Faults, LostRankOfTheParticles) {
+  Jobs jobs("rank");
+  jobs.start({}, 2);
+  jobs.wait_for_middle();
+  const int rank = jobs.particles->child();
+  ASSERT_GT(rank, 0);
+  ::kill(rank, SIGKILL);
+  jobs.expect_end("the DEM side at", "signal 9");
+}
+
+TEST(Faults, OneRanksCheckpointGoesOnInTwoJobsWithTheSameDigits) {
+  Jobs jobs("digits", kSteps);
+  jobs.start();
+  jobs.expect_done();
+  EXPECT_EQ(contents(jobs.folder + "/end.bodies"), undisturbed());
+  fs::remove(jobs.folder + "/end.bodies");
+  fs::remove_all(jobs.folder + "/checkpoints/" + std::to_string(kSteps));
+  jobs.start({"-resume"});
+  jobs.expect_done();
+  EXPECT_EQ(contents(jobs.folder + "/end.bodies"), undisturbed());
+}
