@@ -56,10 +56,10 @@ def heap_angle(frames, bodies):
     frame = frames[-1]
     x0 = statistics.median(b[0] for b in frame.values())
     y0 = statistics.median(b[1] for b in frame.values())
-    near = sorted((math.hypot(b[0] - x0, b[1] - y0), b[2]) for b in frame.values())[: int(0.9 * len(frame))]
+    near = sorted((math.hypot(b[0] - x0, b[1] - y0), k) for k, b in frame.items())[: int(0.9 * len(frame))]
     radius = sum(r for r, _ in near) / len(near)
-    height = sum(max(0.0, z - RADIUS) for _, z in near) / len(near)
-    return math.degrees(math.atan2(2 * height, radius)), speed(frame)
+    height = sum(max(0.0, frame[k][2] - RADIUS) for _, k in near) / len(near)
+    return math.degrees(math.atan2(2 * height, radius)), speed({k: frame[k] for _, k in near})
 
 
 def drum_angle(frames, bodies):
@@ -94,11 +94,6 @@ def write_ring(path, inner=0.016, outer=0.03, parts=48):
         out.write("endsolid ring\n")
 
 
-def wall_turn(clusters):
-    """Words that turn the drum: the stock wall takes omega x centre, and the contact is a radius further out."""
-    return "rotate 3.1416" if clusters else f"shear x {3.1416 * 0.035 / (0.035 - RADIUS):.6f}"
-
-
 # name: (what, unit, measure, bodies, bodies with --quick); the first two are those of cases/rolling-comparison
 SCENES = {
     "heap": ("slope of a heap", "degrees", heap_angle, 220, 100),
@@ -117,7 +112,7 @@ def dry_job(build, scene, level, seed, bodies, step):
     clusters = level.kind == "cluster"
     variables = {"seed": seed, "bodies": bodies, "shape": level.shape, "clusters": int(clusters), "step": f"{step:.9g}",
                  "mu_r": 0, "mu_shape": level.mu, "rolling": "off", "words": "tangential_damping on",
-                 "wall_words": "tangential_damping on", "turn": wall_turn(clusters)}
+                 "wall_words": "tangential_damping on"}
     if level.kind == "friction":
         variables |= {"rolling": "shape", "words": "form limited", "wall_words": "form limited"}
     if level.kind == "eccentric":
