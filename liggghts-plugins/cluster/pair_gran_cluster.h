@@ -60,6 +60,7 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   void flush();
   template <DampingLaw law> void compute_block(int padded);
   void share_damping();
+  void weigh_off_centre();
   void scatter(const PairInBlock& p);
 
   ClusterContactWords words_;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The force loop of pair_style gran/cluster: candidates, exact overlaps, contacts in blocks, forces on bodies.
 #include "cluster/pair_gran_cluster.h"
+
+#include "cluster/off_centre.h"
 #include "cluster/shared_contacts.h"
 
 #include "atom.h"
@@ -211,8 +213,10 @@ void PairGranCluster::gather(const NearPair& p, const double* offset, const int*
 
 template <DampingLaw law> void PairGranCluster::compute_block(int padded) {
   contact_geometry(block_, padded);
-  if (words_.sharing == ContactSharing::shared)
+  if (words_.sharing == ContactSharing::shared) {
     share_damping();
+    weigh_off_centre();
+  }
   if (words_.tangential_damping)
     contact_forces<law, true>(block_, padded, update->dt, advance_);
   else
@@ -229,6 +233,24 @@ void PairGranCluster::share_damping() {
       all.add(c.contact_radius[m], c.overlap[m], c.normal[0][m], c.normal[1][m], c.normal[2][m]);
     for (int m = p.first; m < p.last; ++m)
       c.share[m] = all.damping_share(c.contact_radius[m], c.normal[0][m], c.normal[1][m], c.normal[2][m]);
+  }
+}
+
+/// Impacts off centre have less mass to bring to rest.
+void PairGranCluster::weigh_off_centre() {
+  ContactBlock& c = block_;
+  const int held = freeze_group_bit();
+  const auto at_impact = [&](int i) {
+    return BodyAtImpact{atom->rmass[i], (atom->mask[i] & held) != 0, &bodies_->shapes().surface(bodies_->shape_id(i)),
+                        bodies_->rotation(i)};
+  };
+  for (const PairInBlock& p : in_block_) {
+    const BodyAtImpact a = at_impact(p.a), b = at_impact(p.b);
+    if (a.surface->single_at_centre && b.surface->single_at_centre)
+      continue;
+    const double factor = off_centre_factor(c, p.first, p.last, p.offset, a, b);
+    for (int m = p.first; m < p.last; ++m)
+      c.share[m] *= factor;
   }
 }
 

@@ -21,6 +21,13 @@ SurfaceSpheres::SurfaceSpheres(const shape::ClusterShape& shape)
     r.push_back(sphere.radius);
   }
   finish();
+  if (single_at_centre)
+    return;
+  const auto& inertia = shape.inertia_per_mass();
+  constexpr double same = 1e-9; // round-off of a cube's moments
+  equal_moments = inertia.maxCoeff() - inertia.minCoeff() <= same * inertia.maxCoeff();
+  for (int k = 0; k < 3; ++k)
+    inverse_inertia[k] = 1 / inertia[k];
 }
 
 void SurfaceSpheres::finish() {

@@ -23,6 +23,10 @@ struct SurfaceSpheres {
   std::vector<float> xf, yf, zf, rf; ///< the same, padded
   double bounding_radius;            ///< about the centre of mass
   double smallest_radius;
+  /// Of the body: 1 over its principal moments of inertia per unit mass [1/m2]; 0 for spheres, whose contacts never
+  /// turn them by their normal force.
+  double inverse_inertia[3] = {0, 0, 0};
+  bool equal_moments = true;
   bool single_at_centre; ///< one sphere at the centre of mass: its orientation cannot matter
 
  private:
