@@ -12,16 +12,23 @@ using EightLanes = Eigen::Array<double, 8, 1>;
 /// The sums of a, b, c and d.
 inline Eigen::Vector4d lane_sums(const EightLanes& a, const EightLanes& b, const EightLanes& c, const EightLanes& d) {
   typedef double Four __attribute__((vector_size(32)));
-  const auto halves = [](const EightLanes& v) {
+  // Vectors go by reference: passed by value, their width would be part of the calling convention of machines without
+  // it.
+  const auto halves = [](const EightLanes& v, Four& out) {
     const Eigen::Array4d sum = v.head<4>() + v.tail<4>();
-    return Four{sum[0], sum[1], sum[2], sum[3]};
+    out = Four{sum[0], sum[1], sum[2], sum[3]};
   };
   // Neighbouring lanes of u and v added, side by side: u0 + u1, v0 + v1, u2 + u3, v2 + v3.
-  const auto pairs = [](const Four& u, const Four& v) {
-    return __builtin_shufflevector(u, v, 0, 4, 2, 6) + __builtin_shufflevector(u, v, 1, 5, 3, 7);
+  const auto pairs = [](const Four& u, const Four& v, Four& out) {
+    out = __builtin_shufflevector(u, v, 0, 4, 2, 6) + __builtin_shufflevector(u, v, 1, 5, 3, 7);
   };
-  const Four ab = pairs(halves(a), halves(b));
-  const Four cd = pairs(halves(c), halves(d));
+  Four u, v, ab, cd;
+  halves(a, u);
+  halves(b, v);
+  pairs(u, v, ab);
+  halves(c, u);
+  halves(d, v);
+  pairs(u, v, cd);
   const Four sums = __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
   return {sums[0], sums[1], sums[2], sums[3]};
 }
