@@ -99,6 +99,8 @@ struct ModelWords {
   const char* words;
   const char* pair_words;
   double mu_shape;
+  /// What round-off (1e-16 of 1 m/s) may have grown to after 0.04 s. Arms that turn with the bodies let it grow faster.
+  double amplified = 1e-9;
 };
 
 class Invariance : public ::testing::TestWithParam<ModelWords> {
@@ -127,7 +129,7 @@ TEST_P(RankInvariance, OneRankEqualsTwo) {
   };
   const States one = run_script(folder, "one", last("one"), 1);
   const States two = run_script(folder, "two", last("two"), 2);
-  EXPECT_LT(largest_difference(one, two), 1e-9);
+  EXPECT_LT(largest_difference(one, two), GetParam().amplified);
 }
 
 TEST_P(Invariance, RestartContinues) {
@@ -155,7 +157,7 @@ namespace {
 const ModelWords kLimited{"limited", "shape", "form limited", "", 0.32};
 const ModelWords kSprings{"epsd", "shape", "form epsd", "", 0.32};
 const ModelWords kDirectional{"directional", "shape", "form directional", "", 0.32};
-const ModelWords kEccentric{"eccentric", "eccentric", "", "shape cube 64", 0};
+const ModelWords kEccentric{"eccentric", "eccentric", "", "shape cube 64", 0, 1e-7};
 std::string name_of(const ::testing::TestParamInfo<ModelWords>& info) {
   return info.param.name;
 }
