@@ -5,6 +5,9 @@
 // form off centre.
 #include "bodies_scene.h"
 
+#include "force.h"
+#include "pair.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -107,4 +110,39 @@ TEST(Restitution, PaperDampingReturnsItsOwnValue) {
 TEST(Restitution, ElasticImpactsKeepEnergy) {
   for (const Central& c : centrals)
     EXPECT_NEAR(bounce(c, 1, "").energy_gain, 0, 1e-5) << c.family << ' ' << c.count << ' ' << c.name;
+}
+
+TEST(Restitution, FineFacesTouchAtHundredsOfSubSpheres) {
+  // Two cubes of 11^3, face on face, shifted by half a lattice spacing: 21 neighbours in line along each side.
+  constexpr double e = 0.9, speed = 0.2, timestep = 2e-7;
+  LiggghtsSession session;
+  Material material;
+  material.restitution = e;
+  open_box(session, material);
+  use_clusters(session);
+  const shape::ClusterShape cube = shape_of("cube", "1331");
+  double top = 0, spacing = 1;
+  for (const auto& s : cube.spheres())
+    top = std::max(top, s.centre.z());
+  spacing = 2 * top / 10;
+  const double radius = cube.smallest_radius();
+  const double height = 2 * top + std::sqrt(4 * radius * radius - spacing * spacing / 2);
+  Start lower, upper;
+  lower.velocity.z() = speed / 2;
+  upper.position = Eigen::Vector3d(spacing / 2, spacing / 2, height + speed * timestep);
+  upper.velocity.z() = -speed / 2;
+  add_body(session, cube, lower);
+  add_body(session, cube, upper);
+  session.script("timestep 2e-7\nrun 0\n");
+  int dim = 0, most = 0, now = 0;
+  do {
+    session.command("run 20 pre no post no");
+    now = *static_cast<int*>(session.lammps().force->pair->extract("contacts", dim));
+    most = std::max(most, now);
+  } while (now > 0);
+  EXPECT_EQ(most, 21 * 21);
+  // Each normal leans towards the gap that it fills, so that tangential dampers take a little as well; a damper per
+  // contact would leave next to nothing.
+  const double returned = (session.atom().v[session.local(2)][2] - session.atom().v[session.local(1)][2]) / speed;
+  EXPECT_NEAR(returned, e, 0.03);
 }
