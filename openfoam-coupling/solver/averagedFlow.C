@@ -268,10 +268,12 @@ tmp<fvVectorMatrix> averagedFlow::momentumMatrix() {
     const vectorField& Uold = U_.oldTime().primitiveField();
     const scalarField& alpha = c.alpha.primitiveField();
     const vector G = drive_.acceleration().value();
+    // What was held back is an impulse: a force of the last step's length.
+    const scalar returned = mesh_.time().deltaT0Value() / mesh_.time().deltaTValue();
     vectorField& source = tUEqn.ref().source();
     forAll(source, celli) {
-      source[celli] +=
-          V[celli] * (c.particleForce[celli] + c.withheld[celli] + c.exchange[celli] * Uold[celli] + alpha[celli] * G);
+      source[celli] += V[celli] * (c.particleForce[celli] + returned * c.withheld[celli] +
+                                   c.exchange[celli] * Uold[celli] + alpha[celli] * G);
     }
   }
   tUEqn.ref().relax();

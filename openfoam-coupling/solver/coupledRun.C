@@ -6,6 +6,7 @@
 #include "demHost.h"
 #include "fluidCheckpoint.H"
 #include "inputError.H"
+#include "meanOverParts.H"
 #include "statedTerms.H"
 
 #include "link/fluid_server.h"
@@ -179,7 +180,7 @@ link::Extents extentsOf(const fvMesh& mesh) {
 coupledRun::coupledRun(fvMesh& mesh, bool verbose, bool resume)
     : mesh_(mesh), time_(const_cast<Time&>(mesh.time())), properties_(propertiesFile(mesh.time())), verbose_(verbose),
       resume_(resume), traps_(fegetexcept()), semiImplicit_(readMomentum(properties_)),
-      method_(readVoidFraction(properties_)) {}
+      method_(readVoidFraction(properties_)), timeStep_(time_), interval_(time_.controlDict().get<scalar>("deltaT")) {}
 
 bool coupledRun::wanted(const Time& time) {
   return isFile(time.globalPath() / time.constant() / "couplingProperties");
@@ -263,10 +264,11 @@ void coupledRun::resumeFrom(const link::CheckpointMark& mark) {
     throw link::Refusal("the DEM side goes on from checkpoint " + std::to_string(mark.step) +
                         " but the fluid cannot: " + why + "; take another checkpoint for both, or begin anew");
   const dictionary facts = fluidCheckpoint::facts(mesh_, mark.step);
-  const scalar usual = time_.deltaTValue();
+  // A folder of that time may have told another step, in fewer digits; only a step makes it the last one.
+  time_.setDeltaT(facts.get<scalar>("lastStep"), false);
+  ++time_;
   time_.setTime(facts.get<scalar>("time"), facts.get<label>("timeIndex"));
-  // A folder of that time may have told another step, in fewer digits.
-  time_.setDeltaT(usual, false);
+  time_.setDeltaT(facts.get<scalar>("lastStep"), false);
   exchange::ExchangeSettings settings;
   settings.length = facts.get<scalar>("length");
   settings.diffusionSteps = facts.get<label>("diffusionSteps");
@@ -284,6 +286,7 @@ std::string coupledRun::checkpoint(const link::CheckpointMark& mark) {
   dictionary facts;
   facts.add("time", time_.value());
   facts.add("timeIndex", time_.timeIndex());
+  facts.add("lastStep", time_.deltaTValue());
   facts.add("length", exchange_->settings().length);
   facts.add("diffusionSteps", label(exchange_->settings().diffusionSteps));
   facts.add("drive", flow_->drive().G());
@@ -299,7 +302,7 @@ link::FluidTerms coupledRun::agree(const link::DemTerms& dem) {
   if (!flow_)
     flow_ = std::make_unique<averagedFlow>(mesh_, averagedFlow::particles::coupled);
   link::FluidTerms terms;
-  terms.time_step = time_.deltaTValue();
+  terms.time_step = interval_;
   terms.domain = extentsOf(mesh_);
   terms.offered = kOffered;
   terms.fluid_density = flow_->rho();
@@ -400,14 +403,21 @@ int coupledRun::meet(const link::Meeting& meeting, const link::ParticleArrays& p
   PartSeconds seconds;
   seconds.dem = meeting.dem_seconds;
   seconds.link = meeting.pack_seconds;
-  if (meeting.elapsed > 0)
+  const bool advances = meeting.elapsed > 0;
+  const scalarField before(flow_->alpha().primitiveField());
+  scalar left = advances ? timeStep_.partOf(interval_, flow_->CourantNo()) : 0;
+  if (advances)
     ++time_;
 
   scalarField solid, drag;
   vectorField force;
   exchange_->deposit(particles, meeting.elapsed, solid, &force, semiImplicit_ ? &drag : nullptr);
-  flow_->alpha().primitiveFieldRef() = 1.0 - solid;
-  flow_->alpha().correctBoundaryConditions();
+  const scalarField after(1.0 - solid);
+  const auto setFraction = [&](scalar part) {
+    flow_->alpha().primitiveFieldRef() = part < 1 ? scalarField(before + part * (after - before)) : after;
+    flow_->alpha().correctBoundaryConditions();
+  };
+  setFraction(1 - left / interval_);
   flow_->particleForce().primitiveFieldRef() = force / flow_->rho();
   flow_->particleForce().correctBoundaryConditions();
   if (semiImplicit_) {
@@ -418,9 +428,21 @@ int coupledRun::meet(const link::Meeting& meeting, const link::ParticleArrays& p
     flow_->resetFractionHistory();
   seconds.exchange = watch.lap();
 
-  if (meeting.elapsed > 0) {
+  bool due = false;
+  meanOverParts pressureMean, stressMean;
+  while (advances) {
     const quiet silence(verbose_);
     flow_->advance();
+    due = due || time_.writeTime();
+    if (!(left > 0))
+      break;
+    if (samples.pressure_gradient)
+      pressureMean.add(flow_->pressureGradient(), flow_->alpha(), time_.deltaTValue() / interval_);
+    if (samples.stress_divergence)
+      stressMean.add(flow_->stressDivergence(), flow_->alpha(), time_.deltaTValue() / interval_);
+    left = timeStep_.partOf(left, flow_->CourantNo());
+    ++time_;
+    setFraction(1 - left / interval_);
   }
   seconds.fluid = watch.lap();
   checkFinite(meeting);
@@ -431,17 +453,19 @@ int coupledRun::meet(const link::Meeting& meeting, const link::ParticleArrays& p
   tmp<volVectorField> pressure, stress;
   if (samples.pressure_gradient) {
     pressure = flow_->pressureGradient();
+    pressureMean.complete(pressure.ref(), flow_->alpha(), time_.deltaTValue() / interval_);
     fields.pressureGradient = &pressure().primitiveField();
   }
   if (samples.stress_divergence) {
     stress = flow_->stressDivergence();
+    stressMean.complete(stress.ref(), flow_->alpha(), time_.deltaTValue() / interval_);
     fields.stressDivergence = &stress().primitiveField();
   }
   exchange_->sample(fields, particles, samples);
   seconds.exchange += watch.lap();
   report_->add(*flow_, *exchange_, meeting, seconds);
-  if (meeting.elapsed > 0 && time_.writeTime())
-    time_.write();
+  if (due)
+    time_.writeNow();
   return returnReduce(label(link::stop_signal()), maxOp<label>());
 }
 

@@ -40,7 +40,7 @@ vector vectorOf(const double* v) {
 } // namespace
 
 couplingReport::couplingReport(const fvMesh& mesh, const link::DemTerms& dem, int every, const dictionary* earlier)
-    : mesh_(mesh), every_(every), started_(std::chrono::steady_clock::now()) {
+    : mesh_(mesh), every_(every), interval_(dem.time_step * dem.interval), started_(std::chrono::steady_clock::now()) {
   const vector gravity(vectorOf(dem.gravity));
   const vector across(gravity - axis_ * (axis_ & gravity));
   if (mag(across) > kVertical * mag(gravity))
@@ -117,7 +117,8 @@ vector couplingReport::totalMomentum(averagedFlow& flow, const exchange::particl
   const vectorField& withheld = flow.withheldForce().primitiveField();
   const vectorField perVolume(flow.alpha().primitiveField() * flow.U().primitiveField() + step * withheld);
   const vector fluid(flow.rho() * gSum(vectorField(mesh_.V() * perVolume)));
-  return vectorOf(meeting.totals.momentum) + fluid - step * vectorOf(exchange.balance().particlePressureForce.data());
+  return vectorOf(meeting.totals.momentum) + fluid -
+         interval_ * vectorOf(exchange.balance().particlePressureForce.data());
 }
 
 couplingReport::Bed couplingReport::bed(const volScalarField& alpha) const {

@@ -107,6 +107,8 @@ template <class Visit> void forFields(const fvMesh& mesh, Visit&& visit) {
   // The present level first: replacing it may push an older one back.
   visit(U, "U");
   visit(U.oldTime(), "Uold");
+  // The limiter of an extrapolated velocity looks one level further back.
+  visit(U.oldTime().oldTime(), "UoldOld");
   visit(alpha, "alpha");
   visit(alpha.oldTime(), "alphaOld");
   visit(phi, "phi");

@@ -5,10 +5,17 @@
 
 #include "inputError.H"
 
+#include <cmath>
+
 namespace Foam {
 
 namespace {
 const scalar largestGrowth = 1.2;
+// Two backward differences stay stable while a step is less than 2.4 times the one before it.
+const scalar largestLeap = 2;
+const scalar mostParts = 10000;
+// An interval that holds a whole number of steps is not split once more for its last digit.
+const scalar roundOff = 1e-9;
 } // namespace
 
 timeStepControl::timeStepControl(Time& runTime)
@@ -33,6 +40,22 @@ void timeStepControl::adjust(scalar courant) {
   const scalar present = runTime_.deltaTValue();
   const scalar wanted = courant > VSMALL ? present * maxCo_ / courant : GREAT;
   runTime_.setDeltaT(min(min(wanted, largestGrowth * present), maxDeltaT_));
+}
+
+scalar timeStepControl::partOf(scalar left, scalar courant) {
+  scalar parts = 1;
+  if (active_) {
+    const scalar present = runTime_.deltaTValue();
+    const scalar wanted = courant > VSMALL ? present * maxCo_ / courant : GREAT;
+    parts = max(scalar(1), std::ceil(left / min(wanted, min(largestLeap * present, maxDeltaT_)) * (1 - roundOff)));
+  }
+  if (parts > mostParts) {
+    throw inputError(
+        runTime_.controlDict(), "maxCo", maxCo_,
+        "this takes more than 10000 steps to the next meeting with the particles: raise maxCo or maxDeltaT");
+  }
+  runTime_.setDeltaT(left / parts, false);
+  return parts > 1 ? left - left / parts : 0;
 }
 
 } // namespace Foam

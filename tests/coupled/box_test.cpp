@@ -67,6 +67,26 @@ TEST(CoupledBox, ExplicitDragKeepsTheMomentumOfAClosedBox) {
   expect_constant_momentum(run(closed_box("explicit"), "momentum_explicit"));
 }
 
+// The steps of the fluid become parts of the interval between two meetings, more and fewer of them as the flow changes.
+TEST(CoupledBox, StepsBoundedByTheCourantNumberKeepTheMomentumAndTheMotion) {
+  BoxCase box = closed_box("semiImplicit");
+  const Outcome whole = run(box, "whole_steps");
+  constexpr double kMostCourant = 2e-3;
+  box.control = "adjustTimeStep yes; maxCo 2e-3;";
+  const Outcome parts = run(box, "parts_of_steps");
+  expect_constant_momentum(parts);
+  double most = 0;
+  for (const auto& row : whole.rows)
+    most = std::max(most, row.at("courant"));
+  ASSERT_GT(most, 2 * kMostCourant) << "nothing to bound";
+  // The Courant number is known only after a step: the first particle that changes its cell makes one step too long.
+  const std::size_t warned = 7;
+  for (std::size_t i = warned; i < parts.rows.size(); ++i)
+    EXPECT_LT(parts.rows[i].at("courant"), 2 * kMostCourant) << "meeting " << i;
+  EXPECT_NEAR(parts.last("time"), whole.last("time"), 1e-9);
+  EXPECT_NEAR(parts.last("fastest_particle"), whole.last("fastest_particle"), 0.01 * whole.last("fastest_particle"));
+}
+
 TEST(CoupledBox, BedAtRestMakesNoCurrent) {
   BoxCase box;
   box.size[0] = box.size[1] = 4 * kDiameter;

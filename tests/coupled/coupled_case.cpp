@@ -90,7 +90,7 @@ void write_case(const BoxCase& box, const fs::path& folder) {
   write(folder / "system/blockMeshDict", "dictionary", mesh_dictionary(box));
   std::ostringstream control, transport, solution;
   control << "startTime 0; endTime 1000; writeControl timeStep; writeInterval 100000; writePrecision 12; deltaT "
-          << box.step << ';';
+          << box.step << "; " << box.control;
   write(folder / "system/controlDict", "dictionary", control.str());
   write(folder / "system/fvSchemes", "dictionary",
         "ddtSchemes { default " + box.time_scheme +
@@ -102,7 +102,11 @@ void write_case(const BoxCase& box, const fs::path& folder) {
            << "; } } PIMPLE { nOuterCorrectors 1; momentumPredictor yes; nCorrectors " << box.correctors << "; }";
   write(folder / "system/fvSolution", "dictionary", solution.str());
   write(folder / "system/decomposeParDict", "dictionary", "numberOfSubdomains 2; method simple; coeffs { n (1 1 2); }");
-  transport << "transportModel Newtonian; rho " << box.density << "; nu " << box.viscosity / box.density << ';';
+  transport << "rho " << box.density << "; ";
+  if (box.rheology.empty())
+    transport << "transportModel Newtonian; nu " << box.viscosity / box.density << ';';
+  else
+    transport << box.rheology;
   write(folder / "constant/transportProperties", "dictionary", transport.str());
   if (!box.drive.empty())
     write(folder / "constant/flowProperties", "dictionary", box.drive);

@@ -16,11 +16,13 @@ struct BoxCase {
   bool periodic[3] = {true, true, true}; ///< else walls
   double step = 2e-3;                    ///< of the fluid [s]
   double viscosity = 0.01;               ///< Newtonian [Pa s]
+  std::string rheology;                  ///< entries of transportProperties in place of the Newtonian ones
   double density = 1000;
   std::string time_scheme = "backward";
   int correctors = 2;
   double tolerance = 1e-10; ///< of the linear solvers
   std::string drive;        ///< contents of flowProperties
+  std::string control;      ///< further lines of controlDict
   std::string coupling;     ///< further lines of couplingProperties
   std::string script;       ///< DEM script
 };
