@@ -84,20 +84,21 @@ void FluidServer::answer_meeting(FluidPeer& fluid, const Command& command) {
   int rank = 0;
   MPI_Comm_rank(ranks_, &rank);
   const std::size_t mine = shares.count[rank];
-  std::vector<std::byte> rows(mine * std::max(row_bytes, answer_bytes));
+  if (!channel_)
+    rows_.resize(mine * std::max(row_bytes, answer_bytes));
   const std::byte* const all = channel_ ? message_.view().data + wire::kHeaderBytes + wire::kMeetingBytes : nullptr;
-  scatter_rows(ranks_, all, shares, row_bytes, rows.data(), static_cast<int>(mine));
-  wire::Guests guests({mine, rows.data()}, extents_, command.meeting.needed);
+  scatter_rows(ranks_, all, shares, row_bytes, rows_.data(), static_cast<int>(mine));
+  guests_.load({mine, channel_ ? all : rows_.data()}, extents_, command.meeting.needed);
   const double ready = MPI_Wtime();
 
-  const int signal = fluid.meet(command.meeting, guests.particles(), guests.samples());
+  const int signal = fluid.meet(command.meeting, guests_.particles(), guests_.samples());
 
   const double met = MPI_Wtime();
-  guests.pack_samples(rows.data());
   constexpr std::size_t head = wire::kHeaderBytes + wire::kSamplesBytes;
   Channel::Message answer(channel_ ? head + command.count * answer_bytes : 0);
-  gather_rows(ranks_, rows.data(), static_cast<int>(mine), answer_bytes, shares,
-              channel_ ? answer.data() + head : nullptr);
+  std::byte* const answers = channel_ ? answer.data() + head : nullptr;
+  guests_.pack_samples(channel_ ? answers : rows_.data());
+  gather_rows(ranks_, rows_.data(), static_cast<int>(mine), answer_bytes, shares, answers);
   on_root(ranks_, [&] {
     wire::write_samples_head(answer.data(), command.count, command.meeting.needed, signal);
     // Before sending: the DEM side begins at once, and may take this processor.

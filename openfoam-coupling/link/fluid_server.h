@@ -43,6 +43,8 @@ class FluidServer {
   bool agreed_ = false;
   unsigned offered_ = 0; ///< quantities that the fluid's terms offered
   bool extents_ = false;
+  wire::Guests guests_;
+  std::vector<std::byte> rows_;  ///< of the ranks that do not talk
   double transport_seconds_ = 0; ///< of the last meeting; of rank 0
 };
 

@@ -110,14 +110,20 @@ Shares even_shares(MPI_Comm ranks, std::size_t count) {
 
 void gather_rows(MPI_Comm ranks, const std::byte* mine, int count, std::size_t row_bytes, const Shares& shares,
                  std::byte* all) {
+  if (size_of(ranks) == 1)
+    return;
   const RowType row(row_bytes);
-  MPI_Gatherv(mine, count, row.get(), all, shares.count.data(), shares.begin.data(), row.get(), 0, ranks);
+  MPI_Gatherv(rank_of(ranks) == 0 ? MPI_IN_PLACE : mine, count, row.get(), all, shares.count.data(),
+              shares.begin.data(), row.get(), 0, ranks);
 }
 
 void scatter_rows(MPI_Comm ranks, const std::byte* all, const Shares& shares, std::size_t row_bytes, std::byte* mine,
                   int count) {
+  if (size_of(ranks) == 1)
+    return;
   const RowType row(row_bytes);
-  MPI_Scatterv(all, shares.count.data(), shares.begin.data(), row.get(), mine, count, row.get(), 0, ranks);
+  MPI_Scatterv(all, shares.count.data(), shares.begin.data(), row.get(),
+               rank_of(ranks) == 0 ? MPI_IN_PLACE : static_cast<void*>(mine), count, row.get(), 0, ranks);
 }
 
 } // namespace eccentra::link

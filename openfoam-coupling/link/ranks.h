@@ -29,8 +29,8 @@ Shares gather_shares(MPI_Comm ranks, std::size_t count);
 /// As even as possible; the same on every rank.
 Shares even_shares(MPI_Comm ranks, std::size_t count);
 
-/// Rows of `row_bytes` from all ranks to rank 0, or from it to all. `shares` and `all` count on rank 0 only.
-/// Collective.
+/// Rows of `row_bytes` from all ranks to rank 0, or from it to all. `shares` and `all` count on rank 0 only, whose own
+/// rows are at the beginning of `all` and stay there: its `mine` is not used. Collective.
 void gather_rows(MPI_Comm ranks, const std::byte* mine, int count, std::size_t row_bytes, const Shares& shares,
                  std::byte* all);
 void scatter_rows(MPI_Comm ranks, const std::byte* all, const Shares& shares, std::size_t row_bytes, std::byte* mine,

@@ -62,8 +62,6 @@ int SocketPeer::meet(const Meeting& meeting, const ParticleArrays& particles, co
   const double begun = MPI_Wtime();
   const std::size_t row_bytes = wire::particle_row_bytes(extents_);
   const std::size_t answer_bytes = wire::samples_row_bytes(meeting.needed);
-  std::vector<std::byte> rows(particles.count * std::max(row_bytes, answer_bytes));
-  wire::pack_particles(particles, extents_, rows.data());
   const Shares shares = gather_shares(ranks_, particles.count);
   constexpr std::size_t head = wire::kHeaderBytes + wire::kMeetingBytes;
   on_root_or_leave([&] {
@@ -72,9 +70,14 @@ int SocketPeer::meet(const Meeting& meeting, const ParticleArrays& particles, co
                     " that link socket carries: use link solver");
     return wire::Bytes();
   });
+  // Rank 0's rows go where they are sent from, and are read where they were received.
   Channel::Message message(channel_ ? head + shares.total * row_bytes : 0);
-  gather_rows(ranks_, rows.data(), static_cast<int>(particles.count), row_bytes, shares,
-              channel_ ? message.data() + head : nullptr);
+  if (!channel_)
+    rows_.resize(particles.count * std::max(row_bytes, answer_bytes));
+  std::byte* const all = channel_ ? message.data() + head : nullptr;
+  std::byte* const mine = channel_ ? all : rows_.data();
+  wire::pack_particles(particles, extents_, mine);
+  gather_rows(ranks_, mine, static_cast<int>(particles.count), row_bytes, shares, all);
   double answered = begun, asked = begun;
   wire::Rows answer;
   const wire::Bytes signal = on_root_or_leave([&] {
@@ -89,8 +92,9 @@ int SocketPeer::meet(const Meeting& meeting, const ParticleArrays& particles, co
     answer = wire::decode_samples(message.view(), shares.total, meeting.needed);
     return wire::Bytes(1, std::byte(answer.stop_signal));
   });
-  scatter_rows(ranks_, answer.data, shares, answer_bytes, rows.data(), static_cast<int>(particles.count));
-  wire::unpack_samples({particles.count, rows.data()}, meeting.needed, samples, particles.ticket);
+  scatter_rows(ranks_, answer.data, shares, answer_bytes, rows_.data(), static_cast<int>(particles.count));
+  wire::unpack_samples({particles.count, channel_ ? answer.data : rows_.data()}, meeting.needed, samples,
+                       particles.ticket);
   transport_seconds_ = MPI_Wtime() - begun - (answered - asked);
   return std::to_integer<int>(signal.at(0));
 }

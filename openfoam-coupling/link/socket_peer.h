@@ -11,6 +11,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace eccentra::link {
 
@@ -37,6 +38,7 @@ class SocketPeer : public FluidPeer {
   MPI_Comm ranks_;
   std::unique_ptr<Channel> channel_; ///< of rank 0
   bool extents_ = false;
+  std::vector<std::byte> rows_;  ///< of the ranks that do not talk
   double transport_seconds_ = 0; ///< of the last meeting, without the fluid's own time
 };
 

@@ -190,7 +190,7 @@ double* as_double(std::vector<double>& values, bool wanted) {
 /// An array that is wanted has an address even without rows: collective calls tell by it what is asked for.
 void size_for(std::vector<double>& values, std::size_t count, unsigned quantities, int bit) {
   if (quantities & (1u << bit))
-    values.assign(std::max<std::size_t>(count * kDoublesOf[bit], 1), 0.0);
+    values.resize(std::max<std::size_t>(count * kDoublesOf[bit], 1));
 }
 
 void check_finite(const std::byte* row, std::size_t doubles, std::size_t index, const char* what) {
@@ -495,22 +495,30 @@ void pack_particles(const ParticleArrays& particles, bool extents, std::byte* ro
   }
 }
 
-Guests::Guests(Rows rows, bool extents, unsigned quantities)
-    : count_(rows.count), quantities_(quantities), extents_(extents), position_(3 * rows.count), volume_(rows.count),
-      impulse_(3 * rows.count), drag_(rows.count), extent_(extents ? kExtentDoubles * rows.count + 1 : 0),
-      ticket_(rows.count) {
+void Guests::load(Rows rows, bool extents, unsigned quantities) {
+  count_ = rows.count;
+  quantities_ = quantities;
+  extents_ = extents;
+  position_.resize(3 * count_);
+  volume_.resize(count_);
+  impulse_.resize(3 * count_);
+  drag_.resize(count_);
+  extent_.resize(extents ? kExtentDoubles * count_ + 1 : 0);
+  ticket_.resize(count_);
   const std::size_t row_bytes = particle_row_bytes(extents);
   for (std::size_t i = 0; i < count_; ++i) {
-    Reader in({rows.data + i * row_bytes, row_bytes});
-    for (int k = 0; k < 3; ++k)
-      position_[3 * i + k] = in.take<double>();
-    volume_[i] = in.take<double>();
-    for (int k = 0; k < 3; ++k)
-      impulse_[3 * i + k] = in.take<double>();
-    drag_[i] = in.take<double>();
-    for (int k = 0; extents && k < kExtentDoubles; ++k)
-      extent_[kExtentDoubles * i + k] = in.take<double>();
-    ticket_[i] = in.take<Ticket>();
+    const std::byte* from = rows.data + i * row_bytes;
+    const auto take = [&from](void* to, std::size_t bytes) {
+      std::memcpy(to, from, bytes);
+      from += bytes;
+    };
+    take(&position_[3 * i], 3 * sizeof(double));
+    take(&volume_[i], sizeof(double));
+    take(&impulse_[3 * i], 3 * sizeof(double));
+    take(&drag_[i], sizeof(double));
+    if (extents)
+      take(&extent_[kExtentDoubles * i], kExtentDoubles * sizeof(double));
+    take(&ticket_[i], sizeof(Ticket));
     if (ticket_[i].rank < 0)
       ticket_[i] = Ticket{};
   }

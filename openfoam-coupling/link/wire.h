@@ -94,10 +94,10 @@ void check_tickets(Rows rows, bool extents, const std::vector<std::int32_t>& cel
 /// Writes all rows of `particles` to `rows`.
 void pack_particles(const ParticleArrays& particles, bool extents, std::byte* rows);
 
-/// Particles unpacked from rows, with room for their samples.
+/// Particles unpacked from rows, with room for their samples. Keeps its memory from one meeting to the next.
 class Guests {
  public:
-  Guests(Rows rows, bool extents, unsigned quantities);
+  void load(Rows rows, bool extents, unsigned quantities);
   ParticleArrays particles();
   /// Arrays of the quantities asked for, null for the others, also where there is no particle.
   fluid::FluidSamples samples();
@@ -105,9 +105,9 @@ class Guests {
   void pack_samples(std::byte* rows);
 
  private:
-  std::size_t count_;
-  unsigned quantities_;
-  bool extents_;
+  std::size_t count_ = 0;
+  unsigned quantities_ = 0;
+  bool extents_ = false;
   std::vector<double> position_, volume_, impulse_, drag_, extent_;
   std::vector<Ticket> ticket_;
   std::vector<double> velocity_, fraction_, pressure_gradient_, stress_divergence_, vorticity_;

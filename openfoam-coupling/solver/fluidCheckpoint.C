@@ -220,8 +220,7 @@ bool whole(const fvMesh& mesh, const link::CheckpointMark& mark, std::string& wh
       problem = "'" + recordOf(time, mark.step) + "' belongs to another run than the DEM side's";
     else if (sums.size() != std::size_t(Pstream::nProcs()))
       problem = "'" + recordOf(time, mark.step) + "' was written by " + std::to_string(sums.size()) +
-                " ranks and this run has " + std::to_string(Pstream::nProcs()) +
-                ": use as many, or scripts/redistribute-checkpoint";
+                " ranks and this run has " + std::to_string(Pstream::nProcs()) + ": use as many";
     else if (const auto part = link::check_folder(rankFolder(time, mark.step), &problem);
              part && std::to_string(part->checksum) != sums[rank])
       problem = "'" + rankFolder(time, mark.step) + "' belongs to another checkpoint";

@@ -7,6 +7,8 @@
 
 #include <mpi.h>
 
+#include <sys/resource.h>
+
 #include <unistd.h>
 
 #include <algorithm>
@@ -41,6 +43,14 @@ class PromptFluid : public link::FluidPeer {
   std::string checkpoint(const link::CheckpointMark&) override { return ""; }
   void run_ended() override {}
 };
+
+/// Of all threads of this process, the kernel's work for it included [s].
+double cpu_seconds() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  return double(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+         1e-6 * double(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+}
 
 /// Wall-clock times of the meetings [s], sorted; empty if an answer was wrong.
 std::vector<double> times_of_meetings(link::FluidPeer& fluid, std::size_t count, bool extents) {
@@ -102,19 +112,29 @@ int main(int argc, char** argv) {
     char path[64] = {};
     std::snprintf(path, sizeof path, "/tmp/eccentra-link-benchmark-%d-%d", int(getpid()), int(extents));
     MPI_Bcast(path, sizeof path, MPI_CHAR, 0, MPI_COMM_WORLD);
+    const double begun = cpu_seconds();
     if (rank == 1) {
       PromptFluid fluid;
       link::FluidServer(MPI_COMM_SELF, path, {}, 1).serve(fluid);
+      const double used = cpu_seconds() - begun;
+      MPI_Send(&used, 1, MPI_DOUBLE, 0, 0, MPI_COMM_WORLD);
       continue;
     }
-    link::SocketPeer fluid(MPI_COMM_SELF, path, {});
-    const std::vector<double> seconds = times_of_meetings(fluid, count, extents);
+    std::vector<double> seconds;
+    {
+      link::SocketPeer fluid(MPI_COMM_SELF, path, {});
+      seconds = times_of_meetings(fluid, count, extents);
+    }
+    const double mine = cpu_seconds() - begun;
+    double others = 0;
+    MPI_Recv(&others, 1, MPI_DOUBLE, 1, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
     failed += seconds.empty();
     if (!seconds.empty())
-      std::printf("%ld particles%s, %zu + %zu bytes each: median %.3f ms, fastest %.3f ms, slowest %.3f ms\n", count,
-                  extents ? " with extents" : "", link::wire::particle_row_bytes(extents),
+      std::printf("%ld particles%s, %zu + %zu bytes each: median %.3f ms, fastest %.3f ms, slowest %.3f ms; "
+                  "processor time of both sides %.3f ms\n",
+                  count, extents ? " with extents" : "", link::wire::particle_row_bytes(extents),
                   link::wire::samples_row_bytes(kAsked), 1e3 * seconds[seconds.size() / 2], 1e3 * seconds.front(),
-                  1e3 * seconds.back());
+                  1e3 * seconds.back(), 1e3 * (mine + others) / kMeetings);
   }
   MPI_Finalize();
   return failed;

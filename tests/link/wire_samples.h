@@ -63,7 +63,8 @@ inline link::wire::Bytes samples_message() {
   constexpr std::size_t head = kHeaderBytes + kSamplesBytes;
   const Bytes meeting = meeting_message(true);
   link::Meeting unused;
-  Guests guests(decode_meeting({meeting.data(), meeting.size()}, true, unused), true, kAsked);
+  Guests guests;
+  guests.load(decode_meeting({meeting.data(), meeting.size()}, true, unused), true, kAsked);
   const fluid::FluidSamples samples = guests.samples();
   for (std::size_t i = 0; i < kRows; ++i) {
     for (int k = 0; k < 3; ++k) {
@@ -130,7 +131,8 @@ inline bool accepted(const std::byte* data, std::size_t size) {
           link::Meeting meeting;
           const Rows rows = decode_meeting(message, extents, meeting);
           check_tickets(rows, extents, {8, 20});
-          Guests guests(rows, extents, kAsked);
+          Guests guests;
+          guests.load(rows, extents, kAsked);
           Bytes answer(rows.count * samples_row_bytes(kAsked));
           guests.pack_samples(answer.data());
           return true;

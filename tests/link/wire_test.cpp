@@ -105,7 +105,8 @@ TEST(Wire, MeetingArrivesAsSent) {
     EXPECT_EQ(meeting.steps_total, 80);
     EXPECT_EQ(meeting.totals.volume_velocity[2], 3.25);
     EXPECT_EQ(meeting.totals.fastest, 0.75);
-    wire::Guests guests(rows, extents, kAsked);
+    wire::Guests guests;
+    guests.load(rows, extents, kAsked);
     const ParticleArrays got = guests.particles();
     SomeParticles sent;
     ASSERT_EQ(got.count, kRows);
@@ -145,7 +146,8 @@ TEST(Wire, SamplesArriveAsSentAndOnlyWhatIsAskedForTravels) {
 }
 
 TEST(Wire, ArraysThatAreAskedForExistWithoutParticles) {
-  wire::Guests guests({0, nullptr}, true, kAsked);
+  wire::Guests guests;
+  guests.load({0, nullptr}, true, kAsked);
   EXPECT_NE(guests.samples().velocity, nullptr);
   EXPECT_NE(guests.particles().extent, nullptr);
   EXPECT_EQ(guests.samples().vorticity, nullptr);
