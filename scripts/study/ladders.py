@@ -6,7 +6,7 @@ import math
 
 from . import levels, measures, section, tables
 
-POURED_ABOVE = 0.05  # of the volume: what has no room at random is poured across the hole first
+POURED_ABOVE = 0.05  # of the volume: what has no room at random is poured first; so is all in inclined holes, where a bed forms
 POURING = 0.4  # [s]
 ROOM = 3.0  # standard errors by which two values must differ to be told apart, squared sum
 
@@ -89,7 +89,7 @@ class Ladders:
                  "length": self.size.length, "cells": self.size.cells, "count": section.bodies_at(rung, self.size.length), "seed": seed,
                  "interval": section.steps_per_fluid_step(self.critical[point.level.name]), "snapshots": self.size.seconds,
                  **section.level_words(point.level)}
-        if rung > POURED_ABOVE:
+        if rung > POURED_ABOVE or point.inclination > 0:
             words["pouring"] = POURING
         if point.sphericity != 1:
             words["sphericity"] = point.sphericity

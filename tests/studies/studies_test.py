@@ -183,6 +183,7 @@ class Scripts(unittest.TestCase):
                 ("accuracy-cost", ["--build", "/nowhere"], "there is no /nowhere/bin/eccentra-dem: build it with"),
                 ("accuracy-cost", ["--scenes", "ocean"], "invalid choice: 'ocean'"),
                 ("paper", ["--jobs", "0"], "--jobs is 0: give 1 or more"),
+                ("paper", ["--rungs", "0.3", "0.1"], "--rungs is 0.3 0.1: give rising shares"),
                 ("paper", ["--figures", "8"], "invalid choice: '8'"),
                 ("paper", ["--measured", "/nowhere.csv"], "--measured /nowhere.csv: "),
                 ("paper", ["--build", "/nowhere"], "there is no /nowhere/bin/eccentra-dem: build it with"),
