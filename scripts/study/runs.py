@@ -49,9 +49,9 @@ def command(words, folder, log):
     environment = {"WM_PROJECT_DIR": "/usr/share/openfoam", **os.environ,
                    "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
     with open(log, "w") as out:
-        process = subprocess.Popen([str(w) for w in words], cwd=folder, stdout=out, stderr=subprocess.STDOUT,
-                                   stdin=subprocess.DEVNULL, start_new_session=True, env=environment)
-        with _lock:
+        with _lock:  # none may start behind the back of a stop
+            process = subprocess.Popen([str(w) for w in words], cwd=folder, stdout=out, stderr=subprocess.STDOUT,
+                                       stdin=subprocess.DEVNULL, start_new_session=True, env=environment)
             _running.add(process)
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
@@ -74,8 +74,8 @@ def _stop(*_):
                 os.killpg(process.pid, signal.SIGTERM)
             except ProcessLookupError:
                 pass
-    sys.stderr.write("\nstopped: the same command goes on from here\n")
-    os._exit(130)
+        sys.stderr.write("\nstopped: the same command goes on from here\n")
+        os._exit(130)
 
 
 class Store:

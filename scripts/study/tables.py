@@ -42,6 +42,19 @@ def write_csv(path, header, rows):
         writer.writerows(rows)
 
 
+def called(script, words):
+    """The call as others can repeat it: without the folders and files of this machine."""
+    kept, skip = [], False
+    for word in words:
+        if skip:
+            skip = False
+        elif word in ("--build", "--output", "--measured", "--jobs"):
+            skip = True
+        elif not word.startswith(("--build=", "--output=", "--measured=", "--jobs=")):
+            kept.append(word)
+    return " ".join([script, *kept])
+
+
 def made(script, settings):
     """When, on what and with which settings something was measured."""
     model = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")),

@@ -13,7 +13,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("ECCENTRA_BUILD", ROOT / "build"))
 sys.path.insert(0, str(ROOT / "scripts"))
-from study import charts, ladders, level_study, levels, loop_data, measures, runs, section, timing  # noqa: E402
+from study import charts, ladders, level_study, levels, loop_data, measures, runs, section, tables, timing  # noqa: E402
 
 
 class Measures(unittest.TestCase):
@@ -196,6 +196,9 @@ class Scripts(unittest.TestCase):
 
 
 class Page(unittest.TestCase):
+    def test_a_call_is_told_without_folders(self):
+        self.assertEqual(tables.called("scripts/x", ["--quick", "--build", "/a", "--output=/b", "--seeds", "3"]), "scripts/x --quick --seeds 3")
+
     def test_results_page_takes_the_largest_study_and_its_charts(self):
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
