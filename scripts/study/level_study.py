@@ -227,7 +227,7 @@ class Study:
                       *(row.parts[part] for part in timing.PARTS), row.step * 1e5] for row in group.rows]
             words = group.plain_words()
             if group.judged:
-                lines += [f"{group.title} [{group.unit}], {group.body}: {min(row.runs for row in group.rows)} seeds or more", "",
+                lines += [f"{group.title} [{group.unit}], {group.body}: {min((row.runs for row in group.rows if row.runs), default=0)} seeds or more", "",
                           tables.text(header, table), words, ""]
                 page += [words + "\n"]
             for row in group.rows:
