@@ -4,6 +4,7 @@
 #include "shape/builtin_shapes.h"
 #include "shape/clump_file.h"
 #include "shape/shape_words.h"
+#include "shape/tool/advise.h"
 #include "shape/tool/shape_arguments.h"
 #include "shape/tool/shape_report.h"
 #include "shape/vtk/picture.h"
@@ -193,7 +194,31 @@ ShapeArguments with_script_words(ShapeArguments a) {
   return a;
 }
 
+void report_advice(const ShapeArguments& a) {
+  const std::string& body = word_at(a.words, 1, "cube or disk after 'advise'");
+  require_end(a.words, 2);
+  if (!(a.error > 0))
+    throw std::invalid_argument("advise needs to know the error that is allowed: give --error E, such as 0.05 for 5 %");
+  if (a.data.empty()) {
+    const std::vector<GeometryLevel> levels = geometry_levels(body);
+    fmt::print("{}", a.json ? json_of(levels, a.error).dump(2) + "\n" : text_of(levels, a.error));
+    return;
+  }
+  std::ifstream in(a.data);
+  if (!in)
+    throw std::invalid_argument("cannot open '" + a.data + "': check the path, or leave --data out");
+  const std::vector<Advice> advice = advise(read_level_results(in, a.data), body, a.scene, a.error);
+  fmt::print("{}", a.json ? json_of(advice, a.error, a.data).dump(2) + "\n" : text_of(advice, a.error, a.data));
+}
+
 void run(const ShapeArguments& typed) {
+  if (typed.words[0] == "advise") {
+    report_advice(typed);
+    return;
+  }
+  if (!typed.data.empty())
+    throw std::invalid_argument(
+        "--data and --scene belong to advise: write 'clusterShape advise cube --error 0.05 --data " + typed.data + "'");
   const ShapeArguments a = typed.words[0] == "compare" ? typed : with_script_words(typed);
   if (a.words[0] == "list") {
     require_end(a.words, 1);

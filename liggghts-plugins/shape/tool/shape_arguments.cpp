@@ -23,6 +23,7 @@ What to look at:
   clusterShape file NAME.clump         sphere list, lines "x y z r" in metres, "#" comments (also: clusterShape NAME.clump)
   clusterShape stl NAME.stl --spheres N   fills a closed STL solid with its largest inscribed spheres
   clusterShape compare A B             two shapes side by side, e.g. compare cube 64 disk 48, compare cube 8 mine.clump
+  clusterShape advise cube|disk --error E [--data levels.csv]   which level of detail keeps an error below E
   clusterShape list                    the built-in shapes)";
 
 constexpr const char* examples = R"(
@@ -31,6 +32,7 @@ Examples:
   clusterShape disk 48 --diameter 6.35e-3 --json
   clusterShape disk 48 --property-lines --types 2 --type 1 --estimate max
   clusterShape stl part.stl --scale 1e-3 --error 0.05 --mass solid -o part.clump
+  clusterShape advise cube --error 0.05 --data results/accuracy-cost/levels.csv
 In a LIGGGHTS script: fix ID all particletemplate/cluster SEED ... shape file part.clump diameter 6.35e-3)";
 
 /// CLI11's own checks let nan and inf pass.
@@ -83,7 +85,8 @@ bool read_arguments(int argc, char** argv, ShapeArguments& a, int& exit_code) {
       ->check(not_negative);
   const std::string stl = "STL";
   app.add_option("--spheres", a.spheres, "stop at this number of spheres")->group(stl)->check(CLI::Range(1, 4096));
-  app.add_option("--error", a.error, "stop where this part of the volume is still missing, e.g. 0.05")
+  app.add_option("--error", a.error,
+                 "stop where this part of the volume is still missing, e.g. 0.05; of advise: the error")
       ->group(stl)
       ->check(CLI::Range(1e-4, 0.9));
   app.add_option("--resolution", a.resolution, "grid points along the longest side; default 48 or more")
@@ -95,6 +98,14 @@ bool read_arguments(int argc, char** argv, ShapeArguments& a, int& exit_code) {
   app.add_option("--mass", a.mass, "mass, centre and inertia of: union (the spheres; default) or solid")
       ->group(stl)
       ->check(CLI::IsMember({"union", "solid"}));
+  const std::string advice = "Advice";
+  auto* data = app.add_option("--data", a.data, "levels.csv of scripts/accuracy-cost; without it: geometry alone")
+                   ->group(advice)
+                   ->type_name("FILE.csv");
+  app.add_option("--scene", a.scene, "one scene of the data, such as heap; default all")
+      ->group(advice)
+      ->needs(data)
+      ->type_name("NAME");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

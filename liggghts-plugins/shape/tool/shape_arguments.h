@@ -21,6 +21,8 @@ struct ShapeArguments {
   int resolution = 0; ///< of stl; 0: default
   double scale = 0;   ///< of stl; 0: not given
   std::string mass;   ///< of stl: solid or union
+  std::string data;   ///< of advise: levels.csv; empty: geometry alone
+  std::string scene;  ///< of advise; empty: all
 };
 
 /// Reads the command line. Returns true to go on, false if `exit_code` says it all (help, or a mistake already
