@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from . import references, scenes
 
 KEYS = {"name", "what", "scene", "vary", "set", "quick", "full", "check", "fails", "runs", "seconds", "files",
-        "commands"}
+        "commands", "derive"}
 
 
 class CaseFileError(Exception):
@@ -95,6 +95,8 @@ def read(path, full):
 
             def case(extra, **more):
                 merged = {**values, **extra}
+                for key, expression in {**data.get("derive", {}), **entry.get("derive", {})}.items():
+                    merged[key] = eval(expression, names_of(merged))
                 return Case(group.name, fill(entry["name"], values).replace(" ", ""), fill(entry["what"], values),
                             entry.get("scene", ""), merged, entry["check"], entry.get("runs", [{}]), quick,
                             entry.get("seconds", 2.0), {**data.get("files", {}), **entry.get("files", {})},

@@ -57,6 +57,13 @@ class Measured:
         part = values[-max(1, len(values) // 4):]
         return sum(part) / len(part)
 
+    def csv(self, name, skip=0):
+        """A column of the coupling's CSV, without its first `skip` rows."""
+        with open(f"{self.folder}/postProcessing/eccentra/coupling.csv") as stream:
+            rows = [line.split(",") for line in stream.read().split()]
+        place = rows[0].index(name)
+        return [float(row[place]) for row in rows[1 + skip:]]
+
     def memory_growth(self):
         """Bytes by which the resident memory grew in the second half of the run."""
         half = [size for time, size in self.memory if time > self.memory[-1][0] / 2]
@@ -69,12 +76,24 @@ class Measured:
         """The number that the first group of `pattern` finds in the output; by default the last one."""
         return float(re.findall(pattern, self.output)[which])
 
-    def field_mean(self, name, component):
-        """Mean over the cells of a component of an ASCII vector field of OpenFOAM at the last time that was written."""
+    def numbers(self, pattern):
+        """All numbers that the first group of `pattern` finds in the output."""
+        return [float(text) for text in re.findall(pattern, self.output)]
+
+    def field_range(self, name):
+        """Largest less smallest value of the cells of an ASCII scalar field of OpenFOAM at the last time that was written."""
+        cells = [float(line) for line in re.findall(r"^[-+0-9.e]+$", self._internal_field(name), re.M)][1:]  # the first: how many
+        return max(cells) - min(cells)
+
+    def _internal_field(self, name):
         times = [folder for folder in glob.glob(f"{self.folder}/[0-9]*") if re.fullmatch(r"[-+0-9.e]+", folder.split("/")[-1])]
         with open(max(times, key=lambda folder: float(folder.split("/")[-1])) + "/" + name) as stream:
             text = stream.read()
-        cells = re.findall(r"^\(([^()]+)\)$", text[: text.index("boundaryField")], re.M)
+        return text[text.index("internalField"): text.index("boundaryField")]
+
+    def field_mean(self, name, component):
+        """Mean over the cells of a component of an ASCII vector field of OpenFOAM at the last time that was written."""
+        cells = re.findall(r"^\(([^()]+)\)$", self._internal_field(name), re.M)
         return sum(float(cell.split()[component]) for cell in cells) / len(cells)
 
     def frames(self, name="dump"):

@@ -42,6 +42,15 @@ def hertz_energy(youngs, poisson, reduced_radius, overlap):
     return 8 / 15 * effective * math.sqrt(reduced_radius) * overlap**2.5
 
 
+def spread(values, line=True):
+    """(largest - smallest) / |mean| of the last half of a series; `line`: about its straight line of least squares."""
+    late = values[len(values) // 2:]
+    mean, middle = sum(late) / len(late), (len(late) - 1) / 2
+    slope = sum((i - middle) * (y - mean) for i, y in enumerate(late)) / sum((i - middle) ** 2 for i in range(len(late)))
+    flat = [y - slope * (i - middle) for i, y in enumerate(late)] if line else late
+    return (max(flat) - min(flat)) / abs(mean)
+
+
 def sphere_mass(diameter, density):
     return math.pi / 6 * diameter**3 * density
 
@@ -52,6 +61,19 @@ def settled(particle, viscosity, elapsed):
     diameter = 2 * particle["radius"]
     time = sphere_mass(diameter, particle["density"]) / (math.pi / 8 * diameter * 30 * viscosity)
     return elapsed > 12 * time
+
+
+def kinetic_gain(run, table=-1):
+    """Change of the kinetic energy (f_move[1] + f_move[2]) over a table [J]."""
+    both = [a + b for a, b in zip(run.column("f_move[1]", table), run.column("f_move[2]", table))]
+    return both[-1] - both[0]
+
+
+def gravity_work(run, mass, degrees, table=-1):
+    """Work of gravity on a slope that descends along +x by `degrees`, from the centre of mass v_x, v_z [J]."""
+    angle = math.radians(degrees)
+    dx, dz = (run.last(k, table) - run.first(k, table) for k in ("v_x", "v_z"))
+    return mass * GRAVITY * (math.sin(angle) * dx - math.cos(angle) * dz)
 
 
 def energy(run, mass, table=-1):
@@ -84,6 +106,9 @@ def channel_velocity(gradient, gap, tau0, consistency, index):
     rest = 1 - tau0 / wall
     return (index / (index + 1) * gap / 2 * (wall / consistency) ** (1 / index) * rest ** (1 + 1 / index)
             * (1 - index / (2 * index + 1) * rest))
+
+
+MEAN_FLOW = r" <alpha U> ([-+0-9.e]+) m/s"
 
 
 def gradient(run):

@@ -70,6 +70,8 @@ def _execute(case: Case, run: dict, program, folder: pathlib.Path):
     status, memory = 0, []
     with open(folder / "output", "w") as output:
         for command in commands:
+            serial = command[0] == "serial"  # of a case on several ranks
+            command = command[serial:]
             ours = program.parent / command[0]
             if ours.exists():
                 command = [str(ours)] + command[1:]
@@ -77,12 +79,15 @@ def _execute(case: Case, run: dict, program, folder: pathlib.Path):
                 print(f"ERROR: there is no program {ours}: build it first", file=output, flush=True)
                 status = 127
                 break
-            if ranks > 1:
+            if ranks > 1 and not serial:
                 command = ["mpirun", "--oversubscribe", "--bind-to", "none", "-np", str(ranks)] + command
             status, memory = _watch(command, folder, output)
             if status:
                 break
-    return Measured(str(folder), (folder / "output").read_text(errors="replace"), status, memory)
+    text = (folder / "output").read_text(errors="replace")
+    if (folder / "log.liggghts").exists():  # of the script that annulusFoam hosts
+        text += (folder / "log.liggghts").read_text(errors="replace")
+    return Measured(str(folder), text, status, memory)
 
 
 def _text(value):
@@ -115,7 +120,7 @@ def run(case: Case, program, folder: pathlib.Path, digest: str) -> Result:
             names = names_of(known)
             value = eval(check["value"], {"__builtins__": {}, **names})
             limit = eval(str(check[relation]), {"__builtins__": {}, **names})
-        except (KeyError, IndexError, ZeroDivisionError, OverflowError) as error:
+        except (KeyError, IndexError, ValueError, ZeroDivisionError, OverflowError) as error:
             found.append(f"{check['what']}: not measured ({type(error).__name__} {error})")
             values.append([check["what"], None, relation, None, False])
             holds = False

@@ -46,6 +46,10 @@ def weight(angle=0.0):
     return f"fix weight all gravity 9.81 vector {math.sin(a)!r} 0 {-math.cos(a)!r}\n"
 
 
+def weight_along(direction):
+    return f"fix weight all gravity 9.81 vector {direction}\n"
+
+
 def floor(words=""):
     return f"fix floor all wall/gran/cluster model hertz tangential history {words} primitive type 1 zplane 0.0\n"
 
@@ -113,13 +117,23 @@ def wall_stress(drive, tau0, consistency, rate, index):
 
 
 def drive_words(drive, gradient, end):
-    """OpenFOAM's words for a gradient that is steady, or turns round half-way."""
-    if drive != "turns":
+    """OpenFOAM's words for a gradient that is steady, or turns round or stops half-way."""
+    if drive not in ("turns", "stops"):
         return repr(gradient)
-    half = end / 2
-    return f"table ((0 {gradient!r}) ({half!r} {gradient!r}) ({half * 1.0001!r} {-gradient!r}) ({2 * end!r} {-gradient!r}))"
+    half, then = end / 2, -gradient if drive == "turns" else 0.0
+    return f"table ((0 {gradient!r}) ({half!r} {gradient!r}) ({half * 1.0001!r} {then!r}) ({2 * end!r} {then!r}))"
 
 
 def consistency(tau0, rate, index, without_yield):
     """K [Pa s^n] for which a wall stress of 2 tau0 shears the wall at `rate`."""
     return tau0 / rate**index if tau0 > 0 else without_yield
+
+
+def plug(hole, pipe, offset, spacing, height):
+    """Spheres at the nodes of a square lattice that lie between a bore and a pipe `offset` below its axis, up to a height."""
+    count, lines = int(hole / spacing) + 1, []
+    for i, j, k in itertools.product(range(-count, count + 1), range(-count, count + 1), range(int(height / spacing))):
+        x, y, z = i * spacing, j * spacing, (k + 0.5) * spacing
+        if math.hypot(x, y) < hole - spacing / 2 and math.hypot(x, y + offset) > pipe + spacing / 2:
+            lines.append(f"create_atoms 1 single {x!r} {y!r} {z!r} units box")
+    return "\n".join(lines)
