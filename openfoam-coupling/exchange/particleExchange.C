@@ -48,9 +48,11 @@ particleExchange::particleExchange(const fvMesh& mesh, const ExchangeSettings& s
     throw wrong("diffusionSteps", settings.diffusionSteps, "give a whole number from 1 on");
   if (!(settings.tolerance > 0 && settings.tolerance < 1))
     throw wrong("tolerance", settings.tolerance, "give a number between 0 and 1, such as 1e-9");
-  if (settings.method == VoidFraction::diffusion)
+  if (settings.method == VoidFraction::diffusion) {
     diffusion_ =
         std::make_unique<conservativeDiffusion>(mesh, settings.length, settings.diffusionSteps, settings.tolerance);
+    sharing_ = std::make_unique<vertexSharing>(mesh);
+  }
   for (auto* guesses : {&forceGuess_, &pressureGuess_, &stressGuess_})
     for (scalarField& guess : *guesses)
       guess.setSize(mesh.nCells(), Zero);
@@ -64,6 +66,24 @@ std::vector<scalarField*> particleExchange::memory() {
   return guesses;
 }
 
+template <class Amount> scalarField particleExchange::gather(Amount amount) const {
+  const std::vector<Guest>& here = guests_.here();
+  if (!sharing_) {
+    scalarField cells(mesh_.nCells(), Zero);
+    for (const Guest& guest : here)
+      cells[guest.at.cell] += amount(guest);
+    return cells;
+  }
+  SharedField shared = sharing_->empty();
+  for (std::size_t g = 0; g < here.size(); ++g)
+    vertexSharing::put(shares_[g], amount(here[g]), shared);
+  return sharing_->collect(shared);
+}
+
+double particleExchange::valueAt(const Guest& guest, const SharedField& field) const {
+  return sharing_ ? vertexSharing::read(shares_[&guest - guests_.here().data()], field) : field.cells[guest.at.cell];
+}
+
 void particleExchange::spread(scalarField& amount, scalarField& perVolume) {
   if (diffusion_) {
     diffusion_->spread(amount, perVolume);
@@ -74,20 +94,11 @@ void particleExchange::spread(scalarField& amount, scalarField& perVolume) {
 void particleExchange::deposit(const link::ParticleArrays& particles, double elapsed, scalarField& solid,
                                vectorField* force, scalarField* drag) {
   guests_.invite(particles, settings_.method, settings_.length);
-  const label cells = mesh_.nCells();
-  std::array<scalarField, 3> impulse;
-  scalarField dragAmount(drag ? cells : 0, Zero);
-  for (auto& component : impulse)
-    component.setSize(force ? cells : 0, Zero);
-  solidVolume_ = Zero;
-  for (const Guest& guest : guests_.here()) {
-    solidVolume_[guest.at.cell] += guest.volume;
-    if (force)
-      for (int k = 0; k < 3; ++k)
-        impulse[k][guest.at.cell] += guest.impulse[k];
-    if (drag)
-      dragAmount[guest.at.cell] += guest.drag;
-  }
+  shares_.clear();
+  if (sharing_)
+    for (const Guest& guest : guests_.here())
+      shares_.push_back(sharing_->sharesOf(guest.at.position, guest.at.cell));
+  solidVolume_ = gather([](const Guest& guest) { return guest.volume; });
   spread(solidVolume_, solidGuess_);
   balance_.fits = overflow_.settle(solidVolume_);
   solid = solidVolume_ / mesh_.V();
@@ -95,14 +106,16 @@ void particleExchange::deposit(const link::ParticleArrays& particles, double ela
   const double rate = elapsed > 0 ? 1.0 / elapsed : 0.0;
   vector meshImpulse(Zero);
   if (force)
-    force->setSize(cells);
+    force->setSize(mesh_.nCells());
   for (int k = 0; k < 3 && force; ++k) {
-    spread(impulse[k], forceGuess_[k]);
-    overflow_.spread(impulse[k]);
-    meshImpulse[k] = sum(impulse[k]);
-    force->replace(k, -rate * impulse[k] / mesh_.V());
+    scalarField impulse = gather([k](const Guest& guest) { return guest.impulse[k]; });
+    spread(impulse, forceGuess_[k]);
+    overflow_.spread(impulse);
+    meshImpulse[k] = sum(impulse);
+    force->replace(k, -rate * impulse / mesh_.V());
   }
   if (drag) {
+    scalarField dragAmount = gather([](const Guest& guest) { return guest.drag; });
     spread(dragAmount, dragGuess_);
     overflow_.spread(dragAmount);
     // The linear solver's tolerance may leave a drag coefficient of -1e-20 where no particle is.
@@ -124,7 +137,8 @@ void particleExchange::deposit(const link::ParticleArrays& particles, double ela
   balance_.meshImpulse = sumOverRanks(meshImpulse);
 }
 
-void particleExchange::sampleAdjoint(vectorField& field, std::array<scalarField, 3>& guess) {
+particleExchange::Readable particleExchange::adjointOf(const vectorField& field, std::array<scalarField, 3>& guess) {
+  Readable readable;
   for (int k = 0; k < 3; ++k) {
     scalarField component(field.component(k));
     overflow_.sample(component);
@@ -132,8 +146,12 @@ void particleExchange::sampleAdjoint(vectorField& field, std::array<scalarField,
       diffusion_->sample(component, guess[k]);
       component = guess[k];
     }
-    field.replace(k, component);
+    if (sharing_)
+      readable[k] = sharing_->readable(component);
+    else
+      readable[k].cells = component;
   }
+  return readable;
 }
 
 void particleExchange::sample(const FlowFields& flow, const link::ParticleArrays& particles,
@@ -144,21 +162,21 @@ void particleExchange::sample(const FlowFields& flow, const link::ParticleArrays
   tmp<volVectorField> gradFraction;
   if (samples.fraction)
     gradFraction = fvc::grad(*flow.fraction);
-  vectorField pressure, stress;
-  if (samples.pressure_gradient) {
-    pressure = *flow.pressureGradient;
-    sampleAdjoint(pressure, pressureGuess_);
-  }
-  if (samples.stress_divergence) {
-    stress = *flow.stressDivergence;
-    sampleAdjoint(stress, stressGuess_);
-  }
+  Readable pressure, stress;
+  if (samples.pressure_gradient)
+    pressure = adjointOf(*flow.pressureGradient, pressureGuess_);
+  if (samples.stress_divergence)
+    stress = adjointOf(*flow.stressDivergence, stressGuess_);
 
   const int perCentre = (samples.velocity ? 3 : 0) + (samples.fraction ? 1 : 0) + (samples.vorticity ? 3 : 0);
   const int perPoint = (samples.pressure_gradient ? 3 : 0) + (samples.stress_divergence ? 3 : 0);
   const auto put = [](double*& at, const vector& v) {
     for (int k = 0; k < 3; ++k)
       *at++ = v[k];
+  };
+  const auto putForce = [this](double*& at, const Guest& guest, const Readable& force) {
+    for (int k = 0; k < 3; ++k)
+      *at++ = guest.weight * valueAt(guest, force[k]);
   };
   const auto fill = [&](const Guest& guest, double* at) {
     const label cell = guest.at.cell;
@@ -174,9 +192,9 @@ void particleExchange::sample(const FlowFields& flow, const link::ParticleArrays
         put(at, 2.0 * (*skew(gradU()[cell])));
     }
     if (samples.pressure_gradient)
-      put(at, guest.weight * pressure[cell]);
+      putForce(at, guest, pressure);
     if (samples.stress_divergence)
-      put(at, guest.weight * stress[cell]);
+      putForce(at, guest, stress);
   };
   for (std::size_t i = 0; i < particles.count; ++i)
     for (int k = 0; k < 3; ++k) {
