@@ -267,8 +267,8 @@ TEST(Exchange, DiffusionSpreadsByItsLengthAlongTheHole) {
     const double mean = Foam::gSum(Foam::scalarField(z * amount)) / Foam::gSum(amount);
     const double variance = Foam::gSum(Foam::scalarField(Foam::sqr(z - mean) * amount)) / Foam::gSum(amount);
     // Along z the second moment of the discrete solution is exact, apart from the images of the periodic section: the
-    // diffusion leaves out what cells spread by themselves, 0.4 cell^2 on the average, of which the shares of this point
-    // in a plane of vertices are 0.25 cell^2.
+    // diffusion leaves out what cells spread by themselves, 0.4 cell^2 on the average, of which the shares of this
+    // point in a plane of vertices are 0.25 cell^2.
     EXPECT_NEAR(variance, 0.5 * settings.length * settings.length - (0.4 - 0.25) * cell * cell,
                 0.01 * settings.length * settings.length);
     EXPECT_NEAR(mean, 0.5 * kLength, 1e-6 * cell);

@@ -191,9 +191,10 @@ TEST(WallClusters, RimOfATiltedDiskFollowsTheClosedForm) {
       const Eigen::Vector3d omega = r.inertia.inverse() * (lever * j);
       EXPECT_NEAR(r.velocity.z(), -d.speed + j / r.mass, 0.01 * d.speed) << "tilt " << tilt << " e " << e;
       EXPECT_LT((r.omega - omega).norm(), 0.01 * omega.norm()) << "tilt " << tilt << " e " << e;
-      if (tilt == 30. &&
-          std::string(e) == "0.9") // computed once in high precision, from the shape of the paper's Table 1
+      if (tilt == 30. && std::string(e) == "0.9") {
+        // Computed once in high precision, from the shape of the paper's Table 1.
         EXPECT_NEAR(r.velocity.z(), -0.220851217, 0.01);
+      }
     }
 }
 
