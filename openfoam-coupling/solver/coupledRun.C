@@ -297,8 +297,10 @@ std::string coupledRun::checkpoint(const link::CheckpointMark& mark) {
 
 link::FluidTerms coupledRun::agree(const link::DemTerms& dem) {
   const trapping on(traps_);
-  if (!flow_ && dem.resumes.step < 0)
-    fluidCheckpoint::begin(time_, resume_);
+  // A checkpoint brings fields of its own: the flow is made from those of the beginning, not from a folder of a later
+  // time that a full disk may have left in pieces.
+  if (!flow_)
+    fluidCheckpoint::begin(time_, resume_ || dem.resumes.step >= 0);
   if (!flow_)
     flow_ = std::make_unique<averagedFlow>(mesh_, averagedFlow::particles::coupled);
   link::FluidTerms terms;

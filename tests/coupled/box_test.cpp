@@ -71,8 +71,8 @@ TEST(CoupledBox, ExplicitDragKeepsTheMomentumOfAClosedBox) {
 TEST(CoupledBox, StepsBoundedByTheCourantNumberKeepTheMomentumAndTheMotion) {
   BoxCase box = closed_box("semiImplicit");
   const Outcome whole = run(box, "whole_steps");
-  constexpr double kMostCourant = 2e-3;
-  box.control = "adjustTimeStep yes; maxCo 2e-3;";
+  constexpr double kMostCourant = 1e-3;
+  box.control = "adjustTimeStep yes; maxCo 1e-3;";
   const Outcome parts = run(box, "parts_of_steps");
   expect_constant_momentum(parts);
   double most = 0;
