@@ -142,21 +142,31 @@ void FixBodies::omega_from_momentum(int i) {
 }
 
 void FixBodies::setup_pre_force(int) {
+  all_round_ = true;
+  for (int id = 0; id < shapes_.size(); ++id)
+    all_round_ = all_round_ && shapes_.surface(id).single_at_centre;
   send_shapes_ = true;
-  comm->forward_comm_fix(this);
+  bring_to_ghosts();
   update_rotations(0, atom->nlocal + atom->nghost);
 }
 
 void FixBodies::pre_force(int) {
   send_shapes_ = neighbor->ago == 0;
+  if (send_shapes_ || !all_round_)
+    bring_to_ghosts();
+  // Others than nve/cluster may turn bodies when lists are made anew (insertion), but not in between.
+  update_rotations(send_shapes_ ? 0 : atom->nlocal, atom->nlocal + atom->nghost);
+}
+
+void FixBodies::bring_to_ghosts() {
   if (atom->nghost > 0 || comm->nprocs > 1)
     comm->forward_comm_fix(this);
-  update_rotations(0, atom->nlocal + atom->nghost);
 }
 
 void FixBodies::update_rotations(int first, int last) {
   for (int i = first; i < last; ++i)
-    rotation_matrix(data_[i], rotation(i));
+    if (first == 0 || !is_round(i))
+      rotation_matrix(data_[i], rotation(i));
 }
 
 void FixBodies::grow_arrays(int nmax) {

@@ -68,9 +68,12 @@ class FixBodies : public LAMMPS_NS::Fix {
   const double* quaternion(int i) const { return data_[i]; }
   /// Angular momentum about the centre of mass of local atom i, world frame [kg m2/s]. Atom::omega follows from it.
   double* angular_momentum(int i) { return data_[i] + momentum_column; }
-  /// Row-major matrix, body to world, of local or ghost atom i (valid from pre_force on; set_orientation keeps it).
+  /// Row-major matrix, body to world, of local or ghost atom i (valid from pre_force on; nve/cluster keeps that of
+  /// local atoms up to date). Round bodies have no use for it: theirs is some rotation.
   const double* rotation(int i) const { return rotation_.data() + 9 * static_cast<std::size_t>(i); }
   double* rotation(int i) { return rotation_.data() + 9 * static_cast<std::size_t>(i); }
+  /// True for plain spheres and one-sphere clusters: their orientation touches nothing.
+  bool is_round(int i) const { return shapes_.surface(shape_id(i)).single_at_centre; }
   /// What is to be added to a sub-sphere's radius of atom i: 0 for clusters, the atom's radius for a plain sphere [m].
   double extra_radius(int i) const;
   /// Principal moments of inertia of local atom i [kg m2]; plain spheres: 2/5 m r^2.
@@ -114,7 +117,9 @@ class FixBodies : public LAMMPS_NS::Fix {
   static constexpr int shape_column = 7;
   static constexpr int columns = 8;
 
+  /// Of ghosts and, to be safe, of all where atoms are new.
   void update_rotations(int first, int last);
+  void bring_to_ghosts();
 
   ShapeTable shapes_;
   InsertionOverlap insertion_{*this};
@@ -123,6 +128,7 @@ class FixBodies : public LAMMPS_NS::Fix {
   bool resuming_ = false;
   std::vector<double> rotation_;
   bool send_shapes_ = true; ///< ghosts are new: they need their shape id, too
+  bool all_round_ = false;  ///< nobody asks for ghosts' orientation
 };
 
 } // namespace eccentra::cluster

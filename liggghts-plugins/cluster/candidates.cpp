@@ -176,4 +176,27 @@ int overlapping_candidates(const CandidateStore& store, int first, int count, co
   return kept;
 }
 
+float least_gap(const CandidateStore& store, int first, int count, const RelativePose& pose) {
+  const float t[9] = {pose.row[0][0], pose.row[0][1], pose.row[0][2], pose.row[1][0], pose.row[1][1],
+                      pose.row[1][2], pose.row[2][0], pose.row[2][1], pose.row[2][2]};
+  const float tx = pose.row[0][3], ty = pose.row[1][3], tz = pose.row[2][3];
+  constexpr int width = CandidateStore::width;
+  float least[width];
+  std::fill(least, least + width, 1e30f);
+  for (int start = 0; start < count; start += width) {
+    const std::size_t at = first + start;
+    const float *ax = store.ax.data() + at, *ay = store.ay.data() + at, *az = store.az.data() + at;
+    const float *bx = store.bx.data() + at, *by = store.by.data() + at, *bz = store.bz.data() + at;
+    const float* reach = store.reach.data() + at;
+    for (int k = 0; k < width; ++k) {
+      const float u = t[0] * bx[k] + t[1] * by[k] + t[2] * bz[k] + (tx - ax[k]);
+      const float v = t[3] * bx[k] + t[4] * by[k] + t[5] * bz[k] + (ty - ay[k]);
+      const float w = t[6] * bx[k] + t[7] * by[k] + t[8] * bz[k] + (tz - az[k]);
+      const float gap = std::sqrt(u * u + v * v + w * w) - reach[k];
+      least[k] = gap < least[k] ? gap : least[k];
+    }
+  }
+  return *std::min_element(least, least + width);
+}
+
 } // namespace eccentra::cluster

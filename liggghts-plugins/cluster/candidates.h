@@ -5,6 +5,7 @@
 
 #include "cluster/surface_spheres.h"
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -50,17 +51,17 @@ struct RelativePose {
       row[i] = a.row[0][i] * full[0] + a.row[1][i] * full[1] + a.row[2][i] * full[2];
   }
 
-  /// True if matter of B within `radius` of its centre may have moved by more than `limit` in A's frame since the pose
-  /// `before` [m]. A turn by theta moves it by at most 2 sin(theta/2) radius, and the Frobenius norm of the difference
-  /// of the two matrices is 2 sqrt(2) sin(theta/2); (s + t)^2 <= 2 s^2 + 2 t^2 for shift s and turn t.
-  bool moved_beyond(float limit, const RelativePose& before, float radius) const {
+  /// How far at most matter of B within `radius` of its centre has moved in A's frame since the pose `before` [m]. A
+  /// turn by theta moves it by at most 2 sin(theta/2) radius, and the Frobenius norm of the difference of the two
+  /// matrices is 2 sqrt(2) sin(theta/2); (s + t)^2 <= 2 s^2 + 2 t^2 for shift s and turn t.
+  float moved_since(const RelativePose& before, float radius) const {
     const Float4 weight = {radius * radius, radius * radius, radius * radius, 2.f};
     Float4 sum = {0, 0, 0, 0};
     for (int i = 0; i < 3; ++i) {
       const Float4 change = row[i] - before.row[i];
       sum += weight * change * change;
     }
-    return !(sum[0] + sum[1] + sum[2] + sum[3] <= limit * limit) || limit < 0;
+    return std::sqrt(sum[0] + sum[1] + sum[2] + sum[3]);
   }
 
   Float4 row[3]; ///< rotation from B's frame to A's by rows; fourth lane: B's centre [m]
@@ -112,5 +113,8 @@ class CandidateSearch {
 /// many.
 int overlapping_candidates(const CandidateStore& store, int first, int count, const RelativePose& pose, float margin,
                            int* hits);
+
+/// The least gap between the sub-spheres of candidates first..first+count-1, count a multiple of the width [m].
+float least_gap(const CandidateStore& store, int first, int count, const RelativePose& pose);
 
 } // namespace eccentra::cluster

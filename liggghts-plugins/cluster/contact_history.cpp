@@ -31,6 +31,10 @@ FixContactHistory::FixContactHistory(LAMMPS* lmp, int narg, char** arg) : Fix(lm
   restart_peratom = 1;
   restart_global = 1; // write_restart comes before the atoms are packed
   create_attribute = 1;
+  scalar_flag = vector_flag = 1;
+  size_vector = 1;
+  extscalar = extvector = 1;
+  global_freq = 1;
   grow_arrays(atom->nmax);
   atom->add_callback(0);
   atom->add_callback(1);
@@ -153,6 +157,18 @@ int FixContactHistory::maxsize_restart() {
   for (int i = 0; i < atom->nlocal; ++i)
     most = std::max(most, size_restart(i));
   return most;
+}
+
+double FixContactHistory::compute_scalar() {
+  int all = 0;
+  MPI_Allreduce(&contact_count, &all, 1, MPI_INT, MPI_SUM, world);
+  return all;
+}
+
+double FixContactHistory::compute_vector(int) {
+  int all = 0;
+  MPI_Allreduce(&near_pair_count, &all, 1, MPI_INT, MPI_SUM, world);
+  return all;
 }
 
 double FixContactHistory::memory_usage() {

@@ -22,6 +22,8 @@ struct Touch {
 /// Fix style "cluster/history", made by pair_style gran/cluster (users never type it). While a run goes on the pair
 /// style holds the history in its own arrays; before atoms move between ranks or into a file it hands all of it over,
 /// to both bodies of each pair, and takes it back when it next meets the pair.
+/// Output: scalar f_cluster_history: sub-contacts between bodies in the last step; f_cluster_history[1]: pairs of
+/// bodies with sub-spheres close to each other. A pair that two ranks share counts on both.
 class FixContactHistory : public LAMMPS_NS::Fix {
  public:
   static constexpr const char* fix_id = "cluster_history";
@@ -36,6 +38,8 @@ class FixContactHistory : public LAMMPS_NS::Fix {
   /// whether the pairs stay valid afterwards (no atom moves).
   std::function<void(bool keep)> hand_over;
   std::vector<Touch>& touches(int i) { return touches_[i]; }
+  /// The pair style's counts on this rank: sub-contacts and pairs of bodies with sub-spheres close to each other.
+  int contact_count = 0, near_pair_count = 0;
 
   int setmask() override;
   void post_create() override;
@@ -53,6 +57,8 @@ class FixContactHistory : public LAMMPS_NS::Fix {
   int maxsize_restart() override;
   void write_restart(FILE* fp) override;
   void restart(char* buf) override;
+  double compute_scalar() override;
+  double compute_vector(int n) override;
   double memory_usage() override;
 
  private:

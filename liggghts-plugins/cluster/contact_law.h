@@ -11,23 +11,25 @@ namespace eccentra::cluster {
 enum class DampingLaw { stock, paper };
 
 /// Contacts between sub-spheres of bodies A and B, as structure of arrays; world frame, SI. Everything is seen from A:
-/// B's torque about its own centre of mass, at `offset` from A's, is offset x force - torque. Strides are kept off
-/// powers of two (they alias in the cache).
-struct alignas(64) ContactBlock {
-  static constexpr int capacity = 520; ///< most sub-contacts of one pair of bodies
+/// B's torque about its own centre of mass, at `offset` from A's, is offset x force - torque. Rows are short, so that
+/// all of them stay in the first-level cache and on few pages, and an odd number of cache lines long: strides near
+/// powers of two alias.
+template <int room> struct alignas(64) ContactBlockOf {
+  static constexpr int capacity = room;
   using Row = double[capacity];
 
   // In: geometry and state.
-  Row separation[3];         ///< from the centre of B's sub-sphere to that of A's [m]
-  Row arm[3];                ///< from A's centre of mass to its sub-sphere's centre [m]
-  Row radius_a, radius_b;    ///< of the sub-spheres [m]
-  Row velocity[3];           ///< of A's centre of mass, minus that of B's matter, were it there [m/s]
-  Row spin[3];               ///< angular velocity of A minus that of B [rad/s]
-  Row mass;                  ///< effective mass of the two bodies [kg]
-  Row youngs, shear_modulus; ///< effective E* and G* [Pa], eq (12), (15)
-  Row damping;               ///< beta = -ln e / sqrt(pi^2 + ln^2 e) >= 0
-  Row friction;              ///< Coulomb coefficient
-  Row share;                 ///< factor of the damping, 1 or as SharedStiffness gives it
+  Row separation[3];                      ///< from the centre of B's sub-sphere to that of A's [m]
+  Row arm[3];                             ///< from A's centre of mass to its sub-sphere's centre [m]
+  Row radius_a, radius_b;                 ///< of the sub-spheres [m]
+  Row velocity[3];                        ///< of A's centre of mass, minus that of B's matter, were it there [m/s]
+  Row spin[3];                            ///< angular velocity of A minus that of B [rad/s]
+  Row mass;                               ///< effective mass of the two bodies [kg]
+  Row youngs, shear_modulus;              ///< effective E* and G* [Pa], eq (12), (15)
+  Row damping;                            ///< beta = -ln e / sqrt(pi^2 + ln^2 e) >= 0
+  Row friction;                           ///< Coulomb coefficient
+  Row share;                              ///< factor of the damping, 1 or as SharedStiffness gives it
+  Row stiffness_sum, force_sum, work_sum; ///< over contacts that share, see shared_contacts.h
   // In and out: tangential displacement [m].
   Row history[3];
   // Between the two passes (or in), and out.
@@ -38,8 +40,12 @@ struct alignas(64) ContactBlock {
   Row torque[3];      ///< on A about its centre of mass [N m]
 };
 
+using ContactBlock = ContactBlockOf<72>;
+/// For a pair of bodies with more contacts than that: the most that one pair may have.
+using LargeContactBlock = ContactBlockOf<520>;
+
 /// First pass: normal, overlap and contact radius of contacts 0..n-1. Overlaps must be >= 0.
-inline void contact_geometry(ContactBlock& c, int n) {
+template <class Block> inline void contact_geometry(Block& c, int n) {
 #pragma GCC ivdep
   for (int m = 0; m < n; ++m) {
     const double x = c.separation[0][m], y = c.separation[1][m], z = c.separation[2][m];
@@ -61,8 +67,8 @@ inline void contact_geometry(ContactBlock& c, int n) {
 /// displacement, capped by Coulomb. Stock: cap mu |F_n| with damping, tangential damping while sticking. Paper: cap
 /// mu |F_n| elastic, damping 2 beta sqrt(2/7 kt m*) always; it has no tangential restitution of its own here, e_t =
 /// e_n. `advance` moves the history by dt; without it the history is only read.
-template <DampingLaw law, bool tangential_damping = true>
-inline void contact_forces(ContactBlock& c, int n, double dt, bool advance) {
+template <DampingLaw law, bool tangential_damping = true, class Block>
+inline void contact_forces(Block& c, int n, double dt, bool advance) {
   const double stock_damping = 2 * std::sqrt(5. / 6.);
   const double advancing = advance ? 1 : 0, time = advancing * dt;
   constexpr double tiny = 1e-300; // keeps 0/0 out where nothing slides

@@ -17,8 +17,7 @@ namespace eccentra::cluster {
 using namespace LAMMPS_NS;
 
 void ContactList::clear(std::size_t pairs) {
-  first.clear();
-  first.reserve(pairs + 1);
+  first.resize(pairs + 1);
   id.clear();
   for (auto& d : displacement)
     d.clear();
@@ -49,8 +48,10 @@ void NearPairs::rebuild(const NeighList& list) {
       p.extra_a = bodies_.extra_radius(p.a);
       p.extra_b = bodies_.extra_radius(p.b);
       p.bound_b = static_cast<float>(radius[p.b]);
-      p.skin = p.wake = -1; // search first
-      p.range = static_cast<float>(radius[p.a] + radius[p.b]);
+      p.searched = false;
+      p.skin = 0;
+      p.stale = 0;
+      p.range = radius[p.a] + radius[p.b];
       p.candidate_first = p.candidate_count = p.candidate_room = 0;
       pairs.push_back(p);
     }
@@ -69,35 +70,39 @@ void NearPairs::rebuild(const NeighList& list) {
     }
     return p.a < q.a;
   });
+  wakes.clear();
+  for (const NearPair& p : pairs)
+    wakes.push_back({p.a, p.b, 0});
   local_at_build_ = atom->nlocal;
-  path_.assign(atom->nlocal + atom->nghost, 0.f);
+  path_.assign(atom->nlocal + atom->nghost, 0.);
+  last_step_.resize(path_.size());
   frame_.resize(path_.size());
   take_history();
   live_ = true;
 }
 
-void NearPairs::update_bodies(float dt) {
+void NearPairs::update_bodies(double dt) {
   const double *v = atom->v[0], *omega = atom->omega[0], *radius = atom->radius;
   const int bodies = static_cast<int>(path_.size());
   for (int i = 0; i < bodies; ++i)
-    frame_[i] = BodyFrame(bodies_.rotation(i));
-  float* path = path_.data();
+    if (!bodies_.is_round(i))
+      frame_[i] = BodyFrame(bodies_.rotation(i));
+  double *path = path_.data(), *step = last_step_.data();
 #pragma GCC ivdep
   for (int i = 0; i < bodies; ++i) {
-    const float vx = static_cast<float>(v[3 * i]), vy = static_cast<float>(v[3 * i + 1]);
-    const float vz = static_cast<float>(v[3 * i + 2]);
-    const float wx = static_cast<float>(omega[3 * i]), wy = static_cast<float>(omega[3 * i + 1]);
-    const float wz = static_cast<float>(omega[3 * i + 2]);
-    path[i] += dt * (std::sqrt(vx * vx + vy * vy + vz * vz) +
-                     static_cast<float>(radius[i]) * std::sqrt(wx * wx + wy * wy + wz * wz));
+    const double *u = v + 3 * i, *w = omega + 3 * i;
+    step[i] = dt * (std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) +
+                    radius[i] * std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]));
+    path[i] += step[i];
   }
 }
 
 void NearPairs::take_history() {
   contacts.clear(pairs.size());
   std::vector<const Touch*> found;
-  for (const NearPair& p : pairs) {
-    contacts.first.push_back(contacts.size());
+  for (std::size_t n = 0; n < pairs.size(); ++n) {
+    const NearPair& p = pairs[n];
+    contacts.first[n] = contacts.size();
     const bool a_is_local = p.a < atom->nlocal;
     const int partner = a_is_local ? p.tag_b : p.tag_a;
     found.clear();
@@ -111,7 +116,7 @@ void NearPairs::take_history() {
         contacts.displacement[k].push_back(touch->displacement[k]);
     }
   }
-  contacts.first.push_back(contacts.size());
+  contacts.first[pairs.size()] = contacts.size();
   for (int i = 0; i < atom->nlocal; ++i)
     history_.touches(i).clear();
 }
@@ -153,7 +158,7 @@ void NearPairs::hand_over(bool keep) {
 
 double NearPairs::memory_usage() const {
   const double contact_bytes = sizeof(int) + 3 * sizeof(double), candidate_bytes = 7 * sizeof(float) + sizeof(int);
-  return static_cast<double>(pairs.capacity()) * (sizeof(NearPair) + 2 * sizeof(int)) +
+  return static_cast<double>(pairs.capacity()) * (sizeof(NearPair) + sizeof(PairWake) + 2 * sizeof(int)) +
          static_cast<double>(contacts.id.capacity() + next.id.capacity()) * contact_bytes +
          static_cast<double>(candidates.id.capacity()) * candidate_bytes;
 }

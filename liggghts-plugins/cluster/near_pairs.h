@@ -23,20 +23,27 @@ struct NearPair {
   int tag_a, tag_b;
   const SurfaceSpheres *surface_a, *surface_b;
   double extra_a, extra_b; ///< added to the sub-spheres' radii (plain spheres) [m]
-  bool direct;             ///< two single spheres: nothing to search
-  RelativePose pose;       ///< at the last search
-  float skin;              ///< relative motion since then that the candidates allow [m]
-  float wake;              ///< without candidates: length of both bodies' paths that calls for a new search [m]
-  float range;             ///< sum of the bounding radii [m]
-  float bound_b;           ///< bounding radius of B [m]
+  double range;            ///< sum of the bounding radii [m]
+  double stale;            ///< length of both bodies' paths up to which the candidates are all that can touch [m]
   int candidate_first;     ///< into the candidate store
   int candidate_count;
   int candidate_room;
+  bool direct;       ///< two single spheres: nothing to search
+  bool searched;     ///< there has been a search
+  float bound_b;     ///< bounding radius of B [m]
+  float skin;        ///< relative motion since the last search that the candidates allow [m]
+  RelativePose pose; ///< at the last search
+};
+
+/// What tells whether a pair needs a look at all; apart from the rest, as most pairs do not and all are asked.
+struct PairWake {
+  int a, b;
+  double quiet; ///< length of both bodies' paths before which they cannot touch [m]
 };
 
 /// Contacts of one step in the order of the pairs, ids ascending within a pair.
 struct ContactList {
-  std::vector<int> first; ///< per pair, and one past the end
+  std::vector<int> first; ///< per pair, and one past the end; room for that
   std::vector<int> id;
   std::vector<double> displacement[3];
   void clear(std::size_t pairs);
@@ -57,18 +64,26 @@ class NearPairs : protected LAMMPS_NS::Pointers {
   void hand_over(bool keep);
 
   std::vector<NearPair> pairs;
-  ContactList contacts, next; ///< of the last step; the one under construction
+  std::vector<PairWake> wakes; ///< one per pair
+  ContactList contacts, next;  ///< of the last step; the one under construction
   CandidateStore candidates;
 
   /// Once a step: frames of all bodies, ghosts as well, and their paths longer by dt (|v| + R |omega|): no matter of a
   /// body has moved farther.
-  void update_bodies(float dt);
+  void update_bodies(double dt);
   const BodyFrame& frame(int i) const { return frame_[i]; }
   /// Length of the path of local or ghost atom i since the list was made [m].
-  float path(int i) const { return path_[i]; }
+  double path(int i) const { return path_[i]; }
+  /// By how much it grew in this step [m].
+  double last_step(int i) const { return last_step_[i]; }
 
   /// Makes `next` the contacts of the last step.
   void accept() { std::swap(contacts, next); }
+  /// Numbers for f_cluster_history.
+  void set_counts(int contacts_now, int near_now) {
+    history_.contact_count = contacts_now;
+    history_.near_pair_count = near_now;
+  }
   double memory_usage() const;
 
  private:
@@ -78,7 +93,7 @@ class NearPairs : protected LAMMPS_NS::Pointers {
   FixContactHistory& history_;
   bool live_ = false;
   int local_at_build_ = 0;
-  std::vector<float> path_;
+  std::vector<double> path_, last_step_;
   std::vector<BodyFrame> frame_;
 };
 

@@ -81,11 +81,12 @@ class FixNveCluster : public Fix {
     for (int i = 0; i < atom->nlocal; ++i) {
       if (!(atom->mask[i] & groupbit))
         continue;
-      kick(i);
+      const double per_mass = 1 / atom->rmass[i];
+      kick(i, per_mass);
       for (int k = 0; k < 3; ++k)
         atom->x[i][k] += dt_ * atom->v[i][k];
       if (bodies_->shape_id(i) != FixBodies::plain_sphere)
-        turn(i);
+        turn(i, per_mass);
     }
   }
 
@@ -93,8 +94,15 @@ class FixNveCluster : public Fix {
     for (int i = 0; i < atom->nlocal; ++i) {
       if (!(atom->mask[i] & groupbit))
         continue;
-      kick(i);
-      if (bodies_->shape_id(i) != FixBodies::plain_sphere)
+      const double per_mass = 1 / atom->rmass[i];
+      kick(i, per_mass);
+      const int shape = bodies_->shape_id(i);
+      if (shape == FixBodies::plain_sphere)
+        continue;
+      const FreeRotation& rotation = bodies_->shapes().free_rotation(shape);
+      if (rotation.spherical())
+        set_omega(i, rotation.world_rate() * per_mass);
+      else
         bodies_->omega_from_momentum(i);
     }
   }
@@ -113,8 +121,8 @@ class FixNveCluster : public Fix {
 
  private:
   /// Half a step of velocity, and of angular momentum (plain spheres: angular velocity).
-  void kick(int i) {
-    const double c = half_kick_ / atom->rmass[i];
+  void kick(int i, double per_mass) {
+    const double c = half_kick_ * per_mass;
     double* v = atom->v[i];
     const double* f = atom->f[i];
     const double* torque = atom->torque[i];
@@ -123,7 +131,7 @@ class FixNveCluster : public Fix {
     if (bodies_->shape_id(i) == FixBodies::plain_sphere) {
       constexpr double solid_sphere = 0.4;
       const double r = atom->radius[i];
-      const double w = half_kick_ / solid_sphere / (r * r * atom->rmass[i]);
+      const double w = c / (solid_sphere * r * r);
       for (int k = 0; k < 3; ++k)
         atom->omega[i][k] += w * torque[k];
     } else {
@@ -145,15 +153,31 @@ class FixNveCluster : public Fix {
     }
   }
 
-  void turn(int i) {
+  /// rate: angular velocity per angular momentum of a body whose moments are equal.
+  void set_omega(int i, double rate) {
+    const double* momentum = bodies_->angular_momentum(i);
+    for (int k = 0; k < 3; ++k)
+      atom->omega[i][k] = rate * momentum[k];
+  }
+
+  void turn(int i, double per_mass) {
     const FreeRotation& rotation = bodies_->shapes().free_rotation(bodies_->shape_id(i));
     const double* momentum = bodies_->angular_momentum(i);
-    const double per_mass = 1 / atom->rmass[i];
-    const double specific[3] = {momentum[0] * per_mass, momentum[1] * per_mass, momentum[2] * per_mass};
-    rotation.step(bodies_->quaternion(i), specific, dt_);
-    if (!rotation.spherical())
+    if (rotation.spherical()) {
+      const double rate = rotation.world_rate() * per_mass;
+      set_omega(i, rate);
+      const double turn = rate * dt_;
+      const double angle[3] = {momentum[0] * turn, momentum[1] * turn, momentum[2] * turn};
+      rotate_in_world(bodies_->quaternion(i), angle);
+      normalise(bodies_->quaternion(i));
+    } else {
+      const double specific[3] = {momentum[0] * per_mass, momentum[1] * per_mass, momentum[2] * per_mass};
+      rotation.step(bodies_->quaternion(i), specific, dt_);
+    }
+    if (!bodies_->is_round(i))
       rotation_matrix(bodies_->quaternion(i), bodies_->rotation(i));
-    bodies_->omega_from_momentum(i);
+    if (!rotation.spherical())
+      bodies_->omega_from_momentum(i);
   }
 
   double quantity(int i, int n) {

@@ -55,23 +55,31 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
     double offset[3]; ///< from A's centre to B's [m]
   };
 
-  void search_candidates(NearPair& p, const RelativePose& pose, const double* offset);
-  void gather(const NearPair& p, const double* offset, const int* ids, int count, int old_first, int old_last);
-  void flush();
-  template <DampingLaw law> void compute_block(int padded);
-  void share_damping();
-  void weigh_off_centre();
-  void scatter(const PairInBlock& p);
+  int pair_contacts(NearPair& p, const double* offset, double path, int old_first, int old_last);
+  double quiet_until(const NearPair& p, const double* offset, double path) const;
+  void search_candidates(NearPair& p, const RelativePose& pose, const double* offset, double path);
+  int gather(const NearPair& p, const double* offset, const int* ids, int count, int old_first, int old_last);
+  template <class Block>
+  int gather_into(Block& block, const NearPair& p, const double* offset, const int* ids, int count, int old_first,
+                  int old_last);
+  RelativePose pose_of(const NearPair& p, const double* offset) const;
+  template <class Block> void flush(Block& block);
+  template <DampingLaw law, class Block> void compute_block(Block& block, int padded);
+  template <class Block> void share_damping(Block& block, int padded);
+  template <class Block> void weigh_off_centre(Block& block);
+  template <class Block> void scatter(const Block& block, const PairInBlock& p);
 
   ClusterContactWords words_;
   FixBodies* bodies_ = nullptr;
   std::unique_ptr<NearPairs> near_;
   CandidateSearch search_;
   std::vector<int> hits_;
-  std::vector<PairInBlock> in_block_;
+  PairInBlock in_block_[ContactBlock::capacity];
+  int pairs_in_block_ = 0;
   ContactBlock block_ = {};
-  int filled_ = 0; ///< contacts in the block
-  int block_ids_[ContactBlock::capacity];
+  std::unique_ptr<LargeContactBlock> large_block_; ///< made when a pair needs it
+  int filled_ = 0;                                 ///< contacts in the block
+  int block_ids_[LargeContactBlock::capacity];
   bool advance_ = false;
   double** youngs_ = nullptr;
   double** shear_ = nullptr;

@@ -104,7 +104,10 @@ inline double along_body_axis(const double* q, int axis, const double* world) {
 }
 
 inline void normalise(double* q) {
-  const double scale = 1 / std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+  // Within a time step only round-off has to go: there one step of Newton's is exact to the last digit.
+  constexpr double newton_limit = 1e-8; // the error is 3/8 of its square
+  const double scale = std::abs(square - 1) < newton_limit ? 1.5 - 0.5 * square : 1 / std::sqrt(square);
   for (int k = 0; k < 4; ++k)
     q[k] *= scale;
 }

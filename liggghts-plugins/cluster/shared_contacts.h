@@ -48,4 +48,42 @@ class SharedStiffness {
   double stiffness_[6] = {}, force_[6] = {}, work_[6] = {};
 };
 
+/// The same for the contacts first..last-1 of one pair of bodies in a block, each against each, which is shorter for
+/// few contacts than the tensors above: starts the sums of all `n` contacts of the block with their own terms (unit:
+/// sqrt(R* overlap), one pair of materials) ...
+template <class Block> inline void start_shared_sums(Block& c, int n) {
+#pragma GCC ivdep
+  for (int m = 0; m < n; ++m) {
+    const double stiffness = c.contact_radius[m], force = stiffness * c.overlap[m];
+    c.stiffness_sum[m] = stiffness;
+    c.force_sum[m] = force;
+    c.work_sum[m] = force * c.overlap[m];
+  }
+}
+
+/// ... adds to them what contacts j and k of one pair of bodies see of each other ...
+template <class Block> inline void add_shared_pair(Block& c, int j, int k) {
+  const double cosine =
+      c.normal[0][j] * c.normal[0][k] + c.normal[1][j] * c.normal[1][k] + c.normal[2][j] * c.normal[2][k];
+  const double weight = cosine * cosine;
+  const double stiffness_j = weight * c.contact_radius[j], stiffness_k = weight * c.contact_radius[k];
+  const double force_j = stiffness_j * c.overlap[j], force_k = stiffness_k * c.overlap[k];
+  c.stiffness_sum[j] += stiffness_k;
+  c.force_sum[j] += force_k;
+  c.work_sum[j] += force_k * c.overlap[k];
+  c.stiffness_sum[k] += stiffness_j;
+  c.force_sum[k] += force_j;
+  c.work_sum[k] += force_j * c.overlap[j];
+}
+
+/// ... and makes them the contacts' shares of damping.
+template <class Block> inline void finish_shared_sums(Block& c, int n) {
+#pragma GCC ivdep
+  for (int m = 0; m < n; ++m) {
+    const double stiffness = c.contact_radius[m], sum = c.stiffness_sum[m], work = c.work_sum[m];
+    const double ratio = c.force_sum[m] / sum * std::sqrt(stiffness / work);
+    c.share[m] = sum > stiffness && work > 0 && ratio < 1 ? ratio : 1;
+  }
+}
+
 } // namespace eccentra::cluster

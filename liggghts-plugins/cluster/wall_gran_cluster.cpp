@@ -188,12 +188,17 @@ void FixWallGranCluster::rebuild_near_list() {
   near_spheres_.clear();
   near_clusters_.clear();
   for (const int i : near_)
-    (words_.surface && is_plain_sphere(i) ? near_spheres_ : near_clusters_).push_back(i);
+    (words_.surface && moves_like_sphere(i) ? near_spheres_ : near_clusters_).push_back(i);
   near_list_stale_ = false;
 }
 
 bool FixWallGranCluster::is_plain_sphere(int i) const {
   return !bodies_ || bodies_->shape_id(i) == FixBodies::plain_sphere;
+}
+
+// Rolling models act on plain spheres alone.
+bool FixWallGranCluster::moves_like_sphere(int i) const {
+  return is_plain_sphere(i) || (!words_.rolling && bodies_->is_round(i));
 }
 
 void FixWallGranCluster::find_touches(int i) {
@@ -424,15 +429,20 @@ void FixWallGranCluster::scatter(int m, const WallTouch& touch) {
 }
 
 void FixWallGranCluster::evaluate(int n, bool advance) {
-  const auto forces = [&](auto contact_forces_of_choice) { contact_forces_of_choice(*block_, n, update->dt, advance); };
+  // Whole vectors, so that rounding does not depend on a contact's place; what is left from before does no harm there.
+  constexpr int width = 8;
+  const int padded = (n + width - 1) / width * width;
+  const auto forces = [&](auto contact_forces_of_choice) {
+    contact_forces_of_choice(*block_, padded, update->dt, advance);
+  };
   if (words_.damping == DampingLaw::stock && words_.tangential_damping)
-    forces(contact_forces<DampingLaw::stock, true>);
+    forces(contact_forces<DampingLaw::stock, true, ContactBlock>);
   else if (words_.damping == DampingLaw::stock)
-    forces(contact_forces<DampingLaw::stock, false>);
+    forces(contact_forces<DampingLaw::stock, false, ContactBlock>);
   else if (words_.tangential_damping)
-    forces(contact_forces<DampingLaw::paper, true>);
+    forces(contact_forces<DampingLaw::paper, true, ContactBlock>);
   else
-    forces(contact_forces<DampingLaw::paper, false>);
+    forces(contact_forces<DampingLaw::paper, false, ContactBlock>);
 }
 
 void FixWallGranCluster::add_forces() {
@@ -457,11 +467,14 @@ void FixWallGranCluster::post_force(int) {
   if (!near_spheres_.empty())
     sphere_forces();
   touches_.clear();
-  for (const int i : near_clusters_) {
-    collect(i);
-    if (touches_.size() >= kBatch)
-      add_forces();
-  }
+  if (words_.surface && !near_clusters_.empty())
+    cluster_forces();
+  else
+    for (const int i : near_clusters_) {
+      collect(i);
+      if (touches_.size() >= kBatch)
+        add_forces();
+    }
   add_forces();
 }
 

@@ -20,6 +20,7 @@
 namespace eccentra::cluster {
 
 class FixBodies;
+struct PlainWall;
 
 /// Scalar: number of (sub-)contacts. Vector: force on the wall (1-3) [N] and torque on the wall (4-6) [N m] about a
 /// point of the plane or of the cylinder's axis (meshes: about the origin).
@@ -99,8 +100,15 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   /// Contacts, forces and torques of near_spheres_, all in one go.
   void sphere_forces();
   /// Writes the contact of sphere i, if it has one, to place m of the block; returns the next free place.
-  template <class Wall> int add_sphere(const Wall& wall, int i, int m);
-  template <class Wall> void scatter_spheres(const Wall& wall, int n);
+  int add_sphere(const PlainWall& wall, int i, int m);
+  void scatter_spheres(const PlainWall& wall, int n);
+  /// The same for near_clusters_ at a primitive wall.
+  void cluster_forces();
+  /// Writes those of the `count` sub-spheres in hits_ that touch to places `first` and after; returns the next free
+  /// one.
+  int add_cluster(const PlainWall& wall, int i, int count, int first);
+  void share_damping_in_block(int i, int first, int last);
+  void scatter_clusters(const PlainWall& wall);
   void evaluate(int n, bool advance);
   void fill(int m, const WallTouch& touch);
   void scatter(int m, const WallTouch& touch);
@@ -108,6 +116,7 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   Eigen::Vector3d rolling_torque(int m, int i, int wall_type, const Eigen::Vector3d& wall_spin,
                                  WallHistoryEntry& entry);
   bool is_plain_sphere(int i) const;
+  bool moves_like_sphere(int i) const;
 
   WallWords words_;
   std::unique_ptr<WallMeshes> meshes_; ///< null: a primitive wall
@@ -116,9 +125,16 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   FixBodies* bodies_ = nullptr; ///< null where the scene has no clusters
   WallHistory history_;
   std::vector<int> near_;          ///< local atoms that may touch before the next neighbour build
-  std::vector<int> near_spheres_;  ///< of these, plain spheres at a primitive wall
+  std::vector<int> near_spheres_;  ///< of these, spheres at a primitive wall
   std::vector<int> near_clusters_; ///< the others
   std::array<int, kBatch> in_block_{};
+  struct ClusterInBlock {
+    int atom, first, last; ///< contacts first..last-1 of the block are this atom's
+  };
+  std::array<ClusterInBlock, ContactBlock::capacity> clusters_in_block_{};
+  std::array<int, ContactBlock::capacity> sub_in_block_{};
+  int bodies_in_block_ = 0;
+  std::vector<int> hits_; ///< sub-spheres of the cluster at hand that may touch
   bool near_list_stale_ = true;
   std::vector<WallTouch> touches_; ///< of the particles at hand
   std::vector<double> gaps_;       ///< of the sub-spheres of the particle at hand

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The short way of wall/gran/cluster for plain spheres on planes and cylinders: one contact each, written straight into
 // the block of the contact law. Plain numbers throughout: small vectors cost more to move than to compute with.
+#include "cluster/plain_wall.h"
 #include "cluster/wall_gran_cluster.h"
 
 #include "atom.h"
@@ -10,51 +11,6 @@
 #include <cmath>
 
 namespace eccentra::cluster {
-
-namespace {
-
-/// A primitive wall as plain numbers.
-struct PlainWall {
-  explicit PlainWall(const WallSurface& surface) : plane(surface.is_plane()), radius(surface.radius()) {
-    const Eigen::Vector3d at_reference = surface.velocity_at(surface.reference());
-    for (int k = 0; k < 3; ++k) {
-      reference[k] = surface.reference()[k];
-      direction[k] = surface.direction()[k];
-      velocity[k] = at_reference[k];
-      omega[k] = surface.angular_velocity()[k];
-    }
-  }
-
-  bool plane;
-  double radius;
-  double reference[3], direction[3], velocity[3], omega[3];
-};
-
-/// Distance of x from the wall; n becomes the unit normal from the wall to x, `from` the vector from the wall's
-/// reference.
-inline double nearest(const PlainWall& wall, const double* x, double* n, double* from) {
-  for (int k = 0; k < 3; ++k)
-    from[k] = x[k] - wall.reference[k];
-  const double* d = wall.direction;
-  const double along = from[0] * d[0] + from[1] * d[1] + from[2] * d[2];
-  if (wall.plane) {
-    const double side = along < 0 ? -1 : 1;
-    for (int k = 0; k < 3; ++k)
-      n[k] = side * d[k];
-    return std::fabs(along);
-  }
-  double radial[3];
-  for (int k = 0; k < 3; ++k)
-    radial[k] = from[k] - along * d[k];
-  const double r = std::sqrt(radial[0] * radial[0] + radial[1] * radial[1] + radial[2] * radial[2]);
-  // On the axis there is no normal; only a sphere wider than the hole could touch there.
-  const double scale = r > 0 ? (r > wall.radius ? 1 : -1) / r : 0;
-  for (int k = 0; k < 3; ++k)
-    n[k] = scale * radial[k];
-  return std::fabs(r - wall.radius);
-}
-
-} // namespace
 
 void FixWallGranCluster::sphere_forces() {
   const PlainWall wall(*words_.surface);
@@ -69,7 +25,7 @@ void FixWallGranCluster::sphere_forces() {
   }
 }
 
-template <class Wall> int FixWallGranCluster::add_sphere(const Wall& wall, int i, int m) {
+int FixWallGranCluster::add_sphere(const PlainWall& wall, int i, int m) {
   double normal[3], from[3];
   const double radius = atom->radius[i];
   const double distance = nearest(wall, atom->x[i], normal, from);
@@ -111,7 +67,7 @@ template <class Wall> int FixWallGranCluster::add_sphere(const Wall& wall, int i
   return m + 1;
 }
 
-template <class Wall> void FixWallGranCluster::scatter_spheres(const Wall& wall, int n) {
+void FixWallGranCluster::scatter_spheres(const PlainWall& wall, int n) {
   const ContactBlock& block = *block_;
   for (int m = 0; m < n; ++m) {
     const int i = in_block_[m];
