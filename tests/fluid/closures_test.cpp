@@ -53,6 +53,24 @@ TEST(Reynolds, HerschelBulkleyReferences) {
   EXPECT_EQ(reynolds_herschel_bulkley(fluid, 0.0, kD), 0.0);
 }
 
+TEST(Reynolds, ViscosityOfTheParticleIsThatOfTheNumber) {
+  for (const double speed : {1e-3, .1, .3}) {
+    const Rheology fluid = paper_fluid(1.0);
+    expect_relative(particle_viscosity(fluid, speed, kD),
+                    fluid.density * speed * kD / reynolds_herschel_bulkley(fluid, speed, kD), 1e-14);
+  }
+}
+
+TEST(Rheology, IsNewtonianWithoutYieldAndWithIndexOneOnly) {
+  EXPECT_TRUE((Rheology{0.0, 0.28, 1.0, 1000.0}.newtonian()));
+  EXPECT_FALSE((Rheology{1.0, 0.28, 1.0, 1000.0}.newtonian()));
+  EXPECT_FALSE((Rheology{0.0, 0.28, 0.65, 1000.0}.newtonian()));
+}
+
+TEST(Sphere, VolumeReference) {
+  expect_relative(sphere_volume(kD / 2), 1.34066353845e-7);
+}
+
 TEST(Chien, References) {
   using Law = Suspended<Chien>;
   expect_relative(drag_coefficient<Law>(1, 1), 30.4399900245);
@@ -199,6 +217,12 @@ TEST(Dennis, IsKirchhoffsTorqueAtLowSpin) {
       {NewtonianStress(oil), 0.0}, Dennis(), kD * kD * kD / 64, 1.0, 1000 * kD * kD};
   expect_relative(torque(10.0).value, 8.04398123067e-7);
   expect_relative(torque(10.0).value, kPi * .1 * kD * kD * kD * 10.0, 1e-12);
+}
+
+TEST(SpinStress, YieldHoldsTheSpinOnlyWhereNothingSlips) {
+  const HerschelBulkleyStress stress(paper_fluid(1.0));
+  EXPECT_EQ((SpinStress<HerschelBulkleyStress>{stress, 0.0}.at_rest()), kAnsleySmith);
+  EXPECT_EQ((SpinStress<HerschelBulkleyStress>{stress, 0.1}.at_rest()), 0.0);
 }
 
 TEST(Mei, References) {

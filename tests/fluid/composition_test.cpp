@@ -48,6 +48,33 @@ TEST(Composition, AsksTheFluidForWhatItReadsAndNoMore) {
   EXPECT_EQ(needs_of(effects_of("drag_torque dennis rheology newtonian 1")), unsigned(kVorticity));
 }
 
+/// As the sources give them; what a run warns by.
+TEST(Composition, StatesTheRangesOfTheSources) {
+  struct Range {
+    const char* words;
+    Number number;
+    double low, high;
+  };
+  const Range ranges[] = {{"drag chien", kReynolds, 1e-3, 1e4},
+                          {"drag schiller_naumann", kReynolds, 0, 2e5},
+                          {"drag haider_levenspiel", kReynolds, 0, 2.5e4},
+                          {"drag ganser", kReynolds, 0, 1e5},
+                          {"drag holzer_sommerfeld", kReynolds, 0, 1e5},
+                          {"shear_lift saffman_mei", kReynolds, 0, 100},
+                          {"shear_lift saffman_mei", kShearParameter, .005, .4},
+                          {"rotational_lift oesterle_bui_dinh", kReynolds, 10, 140},
+                          {"rotational_lift oesterle_bui_dinh", kSpinParameter, 1, 6},
+                          {"drag_torque dennis", kSpinReynolds, 0, 1000}};
+  for (const Range& range : ranges) {
+    bool stated = false;
+    for (const auto& effect : effects_of(std::string("buoyancy off ") + range.words))
+      for (const Validity& validity : effect->validity())
+        stated =
+            stated || (validity.number == range.number && validity.low == range.low && validity.high == range.high);
+    EXPECT_TRUE(stated) << range.words << ": " << kNumberNames[range.number];
+  }
+}
+
 TEST(Composition, DragIsTheHandWrittenLoop) {
   ParticleArrays composed(500), by_hand(500);
   const EffectList effects = effects_of("drag chien buoyancy off");
