@@ -10,6 +10,7 @@ COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#0
 WIDTH, HEIGHT = 460, 330  # of a panel
 LEFT, RIGHT, TOP, BOTTOM = 66, 14, 34, 48
 LINE = 14  # height of a line of the legend
+NEAR = 11  # distance of a label that needs no line to its point
 LETTER = 5.6  # mean width of a letter at the size of labels
 
 
@@ -93,7 +94,8 @@ class _Labels:
                                         for b in self.boxes)
         left, top = min(places, key=covered)
         self.boxes.append((left, top, left + wide, top + high))
-        return left, top + high - 3
+        nearest = min(max(x, left), left + wide), min(max(y, top + 2), top + high - 2)
+        return (left, top + high - 3), nearest if math.dist(nearest, (x, y)) > NEAR else None
 
 
 def _panel(panel, out, left, top):
@@ -156,7 +158,10 @@ def _panel(panel, out, left, top):
             out.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="{s.colour}"/>')
         for p in seen if s.marks else []:
             if p.label:
-                x, y = labels.place(at_x(p.x), at_y(p.y), p.label)
+                (x, y), far = labels.place(at_x(p.x), at_y(p.y), p.label)
+                if far:  # a thin line says whose the words are
+                    out.append(f'<line x1="{at_x(p.x):.1f}" y1="{at_y(p.y):.1f}" x2="{far[0]:.1f}" y2="{far[1]:.1f}" stroke="{s.colour}" '
+                               'stroke-width="0.6"/>')
                 say(x, y, p.label, f'font-size="11" fill="{s.colour}"')
     for k, s in enumerate(named):
         y = TOP + LINE * (k + 1)

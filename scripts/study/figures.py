@@ -81,6 +81,8 @@ class Figures:
                         (level.mu, self.sphere(body, level, 80, u)) for level in self.mu[body]]
                     found[f"{cluster}, {u} m/s"] = [(math.nan, Point(self.reference[body], 80, u))]
             return found
+        if not plan.friction_velocities:
+            return {}
         body = {13: "disk", 14: "cube"}[number]
         u = plan.friction_velocities[-1]
         chosen = [self.s1, self.mu[body][-1]]

@@ -4,10 +4,12 @@
 import dataclasses
 import math
 
-from . import levels, measures, section, tables
+from . import levels, measures, runs, section, tables
 
 POURED_ABOVE = 0.05  # of the volume: what has no room at random is poured first; so is all in inclined holes, where a bed forms
 POURING = 0.4  # [s]
+SHARE = 0.4  # of a run, at its end, over which means are taken: the shock of the flow's start lasts for a second
+NOT_RUN = "not run"
 ROOM = 3.0  # standard errors by which two values must differ to be told apart, squared sum
 
 
@@ -47,7 +49,7 @@ class Value:
 
     def words(self):
         if self.failed:
-            return "failed"
+            return self.failed if self.failed == NOT_RUN else "failed"
         text = f"> {100 * self.value:.0f} %" if self.bound else f"{100 * self.value:.2g} +- {100 * self.error:.1g} %"
         return text + (" (slides back)" if self.slides else "")
 
@@ -93,7 +95,7 @@ class Ladders:
             words["pouring"] = POURING
         if point.sphericity != 1:
             words["sphericity"] = point.sphericity
-        return section.section_job(self.build, f"{point.name()}, {100 * rung:g} %, seed {seed}", words, spheres=point.level.spheres)
+        return section.section_job(self.build, f"{point.name()}, {100 * rung:g} %, seed {seed}", words, SHARE, point.level.spheres)
 
     def run(self, points):
         """All ladders, a rung at a time: what carries the injected flux needs no higher rung. Returns failed runs as sentences."""
@@ -105,11 +107,12 @@ class Ladders:
             results = self.store.run_all(f"rung of {100 * rung:g} %", jobs.values())
             for point in list(climbing):
                 every = [results[jobs[point, s].key()] for s in seeds]
-                good = [r for r in every if "failed" not in r]
-                if len(good) < len(every):
+                good = [r for r in every if runs.good(r)]
+                if any("failed" in r for r in every):
                     failed[point] = next(r["failed"] for r in every if "failed" in r)
                     sentences.append(f"{point.name()}, {100 * rung:g} %: {failed[point]}")
                 if not good:
+                    failed.setdefault(point, NOT_RUN)
                     climbing.remove(point)
                     continue
                 flux, error = measures.mean_and_error([r["mean"]["flux"][0] for r in good])

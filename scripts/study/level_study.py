@@ -3,8 +3,9 @@
 """Levels of detail of a body against the finest one: deviation beside time, in dry scenes and in the annulus."""
 import dataclasses
 import math
+import statistics
 
-from . import charts, dry, levels, measures, section, tables, timing
+from . import charts, dry, levels, measures, runs, section, tables, timing
 
 PERCENT = 5.0  # the accuracy that the plain words ask for
 # What a point of the annulus is judged by: solids move at 0 and 40 degrees and form a bed at rest at 80.
@@ -12,6 +13,10 @@ JUDGED_BY = {0: "flux", 40: "flux", 80: "height"}
 SECTION_RESULTS = {"flux": ("solids flux at 5 %", "1e-6 m3/s", 1e6), "height": ("height of the solids' centre", "mm", 1e3),
                    "gradient": ("pressure gradient", "Pa/m", 1.0)}
 CONCENTRATION = 0.05
+COLOUR = {"sphere": 7, "friction": 4, "eccentric": 3, "cluster": 0}  # of a kind of level, in charts.COLOURS
+COLUMNS = {4: 2, 7: 4, 8: 4}  # of a chart with so many panels; else 3
+PARTS_SHOWN = ("drum", "section 80")
+CENTRAL_VELOCITY = 0.58  # of the annulus in the first chart [m/s]
 RESTITUTION_DRY, RESTITUTION_SECTION = 0.5, 0.9  # of the scenes
 
 
@@ -28,6 +33,10 @@ class Size:
     points: tuple
     section_levels: tuple
     methods: object
+
+
+def short(name):
+    return name.replace("S1 mu", "mu").replace("S1 eccentric", "eccentric")
 
 
 def names_of(build, body):
@@ -64,6 +73,7 @@ class Group:
     unit: str
     rows: list
     judged: bool
+    central: bool = True  # stands in the first chart
 
     def compare(self):
         reference = self.rows[-1]
@@ -85,7 +95,8 @@ class Group:
         """One paragraph, from the numbers alone."""
         reference, rows = self.rows[-1], self.candidates()
         if math.isnan(reference.value) or not rows:
-            return f"{self.title}, {self.body}: no comparison, as the reference or all other levels failed."
+            ended = "failed" if any(row.failed for row in self.rows) else "were not run"
+            return f"{self.title} ({self.body}): no comparison, as the reference or all other levels {ended}."
         share = abs(reference.error / reference.value) * 100 if reference.value else math.nan
         text = [f"{self.title} ({self.body}): the reference {reference.level.name} gives {tables.number(reference.value)} +- "
                 f"{tables.number(reference.error, 2)} {self.unit} in {tables.number(reference.cpu)} s."]
@@ -115,14 +126,11 @@ class Group:
     def panel(self):
         front, bend = self.front()
         reference = self.rows[-1]
-        colour = {"sphere": 7, "friction": 4, "eccentric": 3, "cluster": 0}
-        names = {"sphere": "sphere", "friction": "sphere, mu_shape", "eccentric": "sphere, eccentric", "cluster": "clusters"}
         series = [charts.Series("", [charts.Point(row.cpu, 100 * row.unsure()) for row in front], "#000000", True, False, True)]
-        for kind in names:
-            points = [charts.Point(row.cpu, 100 * row.unsure(), 100 * row.deviation_error, row.level.name.replace("S1 mu", "mu")
-                                   .replace("S1 eccentric", "eccentric"), row is bend)
+        for kind in COLOUR:
+            points = [charts.Point(row.cpu, 100 * row.unsure(), 100 * row.deviation_error, short(row.level.name), row is bend)
                       for row in self.candidates() if row.level.kind == kind]
-            series.append(charts.Series("", points, charts.COLOURS[colour[kind]]))
+            series.append(charts.Series("", points, charts.COLOURS[COLOUR[kind]]))
         band = 100 * abs(reference.error / reference.value) if reference.value and not math.isnan(reference.error) else 0
         return charts.Panel(f"{self.title}", f"CPU seconds of a run ({reference.level.name}: {tables.number(reference.cpu)})",
                             f"deviation from {reference.level.name} [%]", series, True, True,
@@ -154,8 +162,8 @@ class Study:
         found = self.store.run_all("time steps", step_jobs.values())
         self.critical = {key: found[job.key()] for key, job in step_jobs.items()}
         for (name, _), result in self.critical.items():
-            if "failed" in result:
-                return [f"the time step of {name}: {result['failed']}"]
+            if not runs.good(result):
+                return [f"the time step of {name}: {result.get('failed', 'not run yet')}"]
         jobs = {}
         for body, (dry_levels, wet_levels) in plan.items():
             for scene in dry.SCENES:
@@ -202,7 +210,7 @@ class Study:
         rows = []
         for level in chosen:
             every = [r for (b, p, name, _), r in results.items() if (b, p, name) == (body, place, level.name)]
-            good = [r for r in every if "failed" not in r]
+            good = [r for r in every if runs.good(r)]
             failed = next((r["failed"] for r in every if "failed" in r), "")
             if failed:
                 self.failures.append(f"{title.split(':')[0]}, {level.name}: {failed}")
@@ -213,7 +221,7 @@ class Study:
             rows.append(Row(level, value, error, len(good), mean(lambda r: r["cpu"]), mean(lambda r: r["wall"]),
                             {part: mean(lambda r, part=part: r["parts"][part]) for part in timing.PARTS},
                             levels.dividing_step(period, critical["critical"])[0], critical, failed))
-        group = Group(scene, body, title, unit, rows, judged)
+        group = Group(scene, body, title, unit, rows, judged, place in dry.SCENES or place[1] == CENTRAL_VELOCITY)
         group.compare()
         self.groups.append(group)
 
@@ -229,14 +237,17 @@ class Study:
             if group.judged:
                 lines += [f"{group.title} [{group.unit}], {group.body}: {min((row.runs for row in group.rows if row.runs), default=0)} seeds or more", "",
                           tables.text(header, table), words, ""]
-                page += [words + "\n"]
+                if any(row.runs for row in group.rows):
+                    page += [words + "\n"]
             for row in group.rows:
                 cells.append([group.scene, group.body, group.title, group.unit, row.level.name, row.value, row.error, row.runs, row.deviation,
                               row.deviation_error, row.cpu, row.wall, *(row.parts[part] for part in timing.PARTS), row.step,
                               row.critical["critical"], row.critical["contacts"], row.failed])
         steps = []
-        for (name, restitution), result in self.critical.items():
-            steps.append([name, restitution, result["critical"], result["contacts"], levels.SAFETY * result["critical"]])
+        for (name, restitution), result in sorted(self.critical.items(), key=lambda item: item[0][1]):
+            if name.startswith("S1 "):  # a sphere's step is that of S1
+                continue
+            steps.append([name, restitution, result["critical"], str(result["contacts"]), levels.SAFETY * result["critical"]])
         step_header = ["level", "restitution", "critical step s", "contacts then", f"{levels.SAFETY} of it s"]
         lines += ["Time steps: the largest that divides a frame (dry) or a fluid step (annulus) and is at most "
                   f"{levels.SAFETY} of the smallest critical step", "that fix timestep/limit met while bodies fell and came to rest", "",
@@ -248,36 +259,82 @@ class Study:
                    "wall_s", *(f"{part}_s" for part in timing.PARTS), "step_s", "critical_step_s", "contacts_at_critical", "failed"]
         tables.write_csv(self.output / "levels.csv", columns, cells)
         for body in self.bodies:
-            panels = [group.panel() for group in self.groups if group.body == body and group.judged and group.candidates()]
-            if panels:
-                charts.write(self.output / f"levels-{body}.svg", f"What a level of detail of the {body} costs and what it gets wrong "
-                             "(dashed: Pareto front; ring: its knee)", panels)
-                page.insert(1, f"![levels of the {body}](levels-{body}.svg)\n")
+            shown = [group for group in self.groups if group.body == body and group.judged and group.candidates()]
+            central = [group for group in shown if group.central]
+            panels = ([self.overall(body, central)] if len(central) > 1 else []) + [group.panel() for group in central]
+            beside = [group.panel() for group in shown if not group.central]
+            what = f"What a level of detail of the {body} costs and what it gets wrong"
+            pictures = []
+            for name, chosen, more in ((f"levels-{body}", panels, ""), (f"levels-{body}-faster", beside, ", faster flow")):
+                if chosen:
+                    charts.write(self.output / f"{name}.svg", f"{what}{more} (dashed: Pareto front; ring: its knee)", chosen, COLUMNS.get(len(chosen), 3))
+                    pictures.append(f"![levels of the {body}{more}]({name}.svg)\n")
+            page[1:1] = pictures
         page += self.summary()
+        page += self.times()
+        page += ["Time steps: the largest that divides a frame (dry) or a fluid step (annulus) and is at most "
+                 f"{levels.SAFETY} of the smallest critical step that `fix timestep/limit` met while bodies fell and came to rest:\n",
+                 tables.markdown(step_header, steps)]
         return page
 
+    def times(self):
+        """Tables: where the time of a run went, in a dry scene and in the annulus with a bed."""
+        page = []
+        for group in self.groups:
+            if group.judged and group.central and group.scene.startswith(PARTS_SHOWN) and any(row.runs for row in group.rows):
+                page.append(f"Where the CPU seconds of a run go, {group.title.split(':')[0]} ({group.body}):\n")
+                page.append(tables.markdown(["level", "CPU s", *timing.PARTS, "step 1e-5 s"],
+                                            [[row.level.name, row.cpu, *(row.parts[part] for part in timing.PARTS), row.step * 1e5]
+                                             for row in group.rows if row.runs]))
+        return page
+
+    def overall(self, body, groups):
+        """The one picture: over the scenes, the median time as a share of the reference's and the median deviation."""
+        points, kinds = {}, {}
+        for level in {row.level.name: row.level for group in groups for row in group.rows[:-1]}.values():
+            rows = [(row, group.rows[-1]) for group in groups for row in group.candidates() if row.level.name == level.name]
+            if len(rows) == len(groups):
+                points[level.name] = (statistics.median(row.cpu / reference.cpu for row, reference in rows),
+                                      100 * statistics.median(row.unsure() for row, _ in rows))
+                kinds[level.name] = level.kind
+        names = list(points)
+        front = [names[i] for i in measures.pareto_front([points[n] for n in names])]
+        bend = measures.knee([points[n] for n in front])
+        bend = None if bend is None else front[bend]
+        series = [charts.Series("", [charts.Point(*points[n]) for n in front], "#000000", True, False, True)]
+        series += [charts.Series("", [charts.Point(*points[n], label=short(n), ring=n == bend) for n in names if kinds[n] == kind],
+                                 charts.COLOURS[COLOUR[kind]]) for kind in COLOUR]
+        reference = groups[0].rows[-1].level.name
+        return charts.Panel(f"median of these {len(groups)} scenes", f"CPU time over that of {reference}",
+                            f"deviation from {reference} [%]", series, True, True, legend=False)
+
+    def cells(self, header, groups):
+        """Rows of a table: a scene each; deviation of each level, its error and time."""
+        rows = []
+        for group in groups:
+            row = [group.title]
+            for name in header:
+                of = next((r for r in group.rows if r.level.name == name), None)
+                if of is None or (not of.runs and not of.failed):
+                    row.append("not run")
+                elif not of.runs:
+                    row.append("failed")
+                elif of is group.rows[-1]:
+                    row.append(f"{tables.number(of.value)} +- {tables.number(of.error, 2)} {group.unit}; {tables.number(of.cpu, 2)} s ({of.runs})")
+                elif math.isnan(of.deviation):
+                    row.append(f"{tables.number(of.value)} {group.unit}; {tables.number(of.cpu, 2)} s ({of.runs})")
+                else:
+                    row.append(f"{of.deviation:+.0%} +- {of.deviation_error:.0%}; {tables.number(of.cpu, 2)} s ({of.runs})")
+            rows.append(row)
+        return rows
+
     def summary(self):
-        """One table: deviation of each level in each scene."""
+        """Tables of all cells of the matrix, run or not."""
         page = []
         for body in self.bodies:
             judged = [group for group in self.groups if group.body == body and group.judged]
             names = list(dict.fromkeys(row.level.name for group in judged for row in group.rows))
-            rows = []
-            for name in names:
-                row = [name]
-                for group in judged:
-                    of = next((r for r in group.rows if r.level.name == name), None)
-                    if of is None:
-                        row.append("")
-                    elif of is group.rows[-1]:
-                        value, error = tables.number(of.value), tables.number(of.error, 2)
-                        row.append(f"{value} +- {error} {group.unit}; {tables.number(of.cpu, 2)} s")
-                    elif math.isnan(of.deviation):
-                        row.append("failed")
-                    else:
-                        row.append(f"{of.deviation:+.0%} +- {of.deviation_error:.0%}; {tables.number(of.cpu, 2)} s")
-                rows.append(row)
-            if rows:
-                page.append(f"Deviation from the finest {body}, with its standard error over seeds, and CPU seconds of a run:\n")
-                page.append(tables.markdown(["level", *(group.title for group in judged)], rows))
+            if judged:
+                page.append(f"Deviation from the finest {body} with its standard error, CPU seconds of a run, and the number of runs (seeds):\n")
+                page.append(tables.markdown(["", *names], self.cells(names, judged)))
         return page

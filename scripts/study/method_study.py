@@ -4,7 +4,7 @@
 import dataclasses
 import math
 
-from . import charts, measures, section, tables
+from . import charts, measures, runs, section, tables
 
 LENGTH, CONCENTRATION, VELOCITY = 0.15, 0.05, 0.58
 DEM_STEP = 5e-3 / 64
@@ -72,7 +72,7 @@ class Study:
         means = {}
         for name in variants:
             every = [r for (n, _), r in results.items() if n == name]
-            good = [r for r in every if "failed" not in r]
+            good = [r for r in every if runs.good(r)]
             failed = next((r["failed"] for r in every if "failed" in r), "")
             if failed:
                 self.failures.append(f"{family} {name}, {inclination} deg: {failed}")

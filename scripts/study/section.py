@@ -33,7 +33,7 @@ def level_words(level):
     if level.kind == "friction":
         return {"mu_shape": level.mu}
     if level.kind == "eccentric":
-        return {"eccentric": 1, "shape": level.shape}
+        return {"shape": level.shape, "clusters": 0, "eccentric": 1}  # in this order: shape alone asks for clusters
     return {}
 
 

@@ -68,6 +68,11 @@ class Ladders(unittest.TestCase):
         self.assertEqual(ladders.larger(a, ladders.value_of([(0.4, 1.01e-6, 1e-8)])), 0)
         self.assertIsNone(ladders.larger(a, ladders.value_of([], "it failed")))
 
+    def test_what_is_not_run_is_not_compared(self):
+        unknown = ladders.value_of([], ladders.NOT_RUN)
+        self.assertEqual(unknown.words(), "not run")
+        self.assertIsNone(ladders.larger(unknown, ladders.value_of([(0.4, 1e-6, 1e-8)])))
+
     def test_filling(self):
         self.assertEqual(section.bodies_at(0.05, 0.3), 1213)  # 5 % of pi (0.0635^2 - 0.02413^2) 0.3 m3
 
@@ -138,7 +143,7 @@ def run(script, *words):
 class Runs(unittest.TestCase):
     def test_failed_runs_are_not_kept_and_finished_ones_are(self):
         with tempfile.TemporaryDirectory() as folder:
-            store, calls = runs.Store(folder, 1), []
+            store, calls = runs.Store(folder, 1, pathlib.Path(folder)), []
 
             def work(job_folder):
                 calls.append(job_folder)
@@ -153,6 +158,25 @@ class Runs(unittest.TestCase):
                 self.assertEqual(store.run_all("t", [job], said.append), {job.key(): {"value": 3}})
             self.assertEqual(len(calls), 2)
             self.assertIn("a run: FAILED: it broke", said[1])
+
+    def test_results_of_another_build_are_repeated_unless_asked_for(self):
+        with tempfile.TemporaryDirectory() as folder:
+            build = pathlib.Path(folder) / "build"
+            (build / "bin").mkdir(parents=True)
+            (build / "bin" / "program").write_text("first")
+            calls = []
+            job = runs.Job("a run", {"x": 1}, lambda _: calls.append(1) or {"value": len(calls), "cpu": 60.0})
+            result = lambda **words: next(iter(runs.Store(folder, 1, build, **words).run_all("t", [job], lambda _: None).values()))
+            self.assertEqual(result(only_kept=True), {"missing": True})
+            self.assertEqual(result()["value"], 1)
+            (build / "bin" / "program").write_text("second")
+            self.assertEqual(result(only_kept=True), {"missing": True})
+            self.assertEqual(result(any_build=True)["value"], 1)
+            self.assertEqual(result()["value"], 2)
+            store = runs.Store(folder, 1, build)
+            store.run_all("t", [job])
+            self.assertIn("1 runs of 1.0 minutes of CPU in all, made from", store.account())
+            self.assertNotIn("another build", store.account())
 
 
 class Scripts(unittest.TestCase):
