@@ -8,10 +8,10 @@ import re
 import tomllib
 from dataclasses import dataclass, field
 
-from . import references, scenes
+from . import drag_map, references, scenes
 
 KEYS = {"name", "what", "scene", "vary", "set", "quick", "full", "check", "fails", "runs", "seconds", "files",
-        "commands", "derive"}
+        "commands", "derive", "points"}
 
 
 class CaseFileError(Exception):
@@ -31,13 +31,15 @@ class Case:
     seconds: float  # a guess, for the time left
     files: dict  # further files of the run: name, text
     commands: list  # instead of eccentra-dem on the scene: lines to execute in turn
+    points: str = ""  # expression: rows of numbers that the group's chart shows
     failing: bool = False
+    twin: str = "fails"
     why: str = ""
     says: str = ""
 
     @property
     def id(self):
-        return f"{self.group}/{self.name}" + ("/fails" if self.failing else "")
+        return f"{self.group}/{self.name}" + (f"/{self.twin}" if self.failing else "")
 
 
 @dataclass
@@ -51,7 +53,7 @@ class Group:
 def names_of(values):
     """What expressions may use."""
     known = {"__builtins__": {}}
-    known |= {name: getattr(module, name) for module in (math, references, scenes) for name in dir(module)
+    known |= {name: getattr(module, name) for module in (math, references, scenes, drag_map) for name in dir(module)
              if not name.startswith("_")}
     known.update(abs=abs, min=min, max=max, sum=sum, len=len, range=range, zip=zip, sorted=sorted, str=str, repr=repr, int=int,
                  float=float, any=any, all=all, round=round, enumerate=enumerate)
@@ -100,12 +102,13 @@ def read(path, full):
                 return Case(group.name, fill(entry["name"], values).replace(" ", ""), fill(entry["what"], values),
                             entry.get("scene", ""), merged, entry["check"], entry.get("runs", [{}]), quick,
                             entry.get("seconds", 2.0), {**data.get("files", {}), **entry.get("files", {})},
-                            entry.get("commands", []), **more)
+                            entry.get("commands", []), entry.get("points", ""), **more)
 
             group.cases.append(case({}))
             for failing in entry["fails"]:
                 if eval(str(failing.get("when", "True")), names_of(values)):
-                    group.cases.append(case(failing.get("set", {}), failing=True, why=failing["why"],
+                    twin = "fails" + ("_" + failing["as"] if "as" in failing else "")
+                    group.cases.append(case(failing.get("set", {}), failing=True, twin=twin, why=failing["why"],
                                             says=failing.get("says", "")))
     return group
 

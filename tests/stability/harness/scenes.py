@@ -137,3 +137,15 @@ def plug(hole, pipe, offset, spacing, height):
         if math.hypot(x, y) < hole - spacing / 2 and math.hypot(x, y + offset) > pipe + spacing / 2:
             lines.append(f"create_atoms 1 single {x!r} {y!r} {z!r} units box")
     return "\n".join(lines)
+
+
+def held_drag(viscosity, diameter, density, solid, every, gravity):
+    """Chien's viscous drag in a suspension from the velocity at a meeting, held over the DEM steps to the next, and buoyancy: what a coupling
+    does whose particles receive a force."""
+    drag = f"-{15 * math.pi / 4 * viscosity * diameter * (1 - solid) ** -1.65!r}*v"
+    # Without a run before it stock's fix store/state reads a list that is not there yet.
+    return ("run 0\n" + "".join(f"variable drag_{k} atom {drag}{k}\n" for k in "xyz") +
+            f"variable lift atom {math.pi / 6 * diameter**3 * density * gravity!r}\n"
+            f"fix drag all store/state {every} v_drag_x v_drag_y v_drag_z\n"
+            "variable held_x atom f_drag[1]\nvariable held_y atom f_drag[2]\nvariable held_z atom f_drag[3]+v_lift\n"
+            "fix mud all addforce v_held_x v_held_y v_held_z\n")
