@@ -5,7 +5,7 @@ import dataclasses
 import math
 
 from . import charts, ladders, levels, tables
-from .ladders import Point, larger
+from .ladders import Point, larger, top_of_both
 
 SPHERICITY = {"cube": 0.85, "disk": 0.79}  # Table 1
 
@@ -137,7 +137,9 @@ def finds(number, series, values):
                 cluster = values[series[{"cube": "C64", "disk": "D48"}[name.split(",")[0]] + "," + name.split(",")[1]][0][1]]
                 told.append(count([(0, a[0], b[0], larger(values[b[1]], values[a[1]])) for a, b in zip(points, points[1:])], 1,
                                   f"{name}: C grows with mu_shape"))
-                told.append("Against the cluster: " + "; ".join(f"mu {x:.2f} {against(values[p], cluster)}" for x, p in points) + ".")
+                compared = [f"mu {x:.2f} {against(values[p], cluster)}" for x, p in points if larger(values[p], cluster) is not None]
+                if compared:
+                    told.append("Against the cluster: " + "; ".join(compared) + ".")
         told.append("Above mu_s = 0.5 a sphere slides instead of rolling: more rolling friction changes nothing then (saturation).")
     else:
         names = list(series)
@@ -147,11 +149,12 @@ def finds(number, series, values):
                 told.append(f"With mu_shape at {where}: {against(values[b], values[a])} without.")
         turned = [(0, a, b, larger(values[b[1]], values[a[1]])) for name in names[2:] for a, b in zip(series[name], series[name][1:])]
         told.append(count(turned, -1, "Rotation lowers C"))
+    told = [t for t in told if "nothing to compare" not in t and "not compared with" not in t and "in 0 of 0 points" not in t]
     back = sorted({p.name() for points in series.values() for _, p in points if values[p].slides})
     if back:
         told.append(f"At some filling the solids slide back down the hole, which a periodic section lets go on for ever, at {len(back)} points: "
                     + "; ".join(back) + ".")
-    return " ".join(t for t in told if t)
+    return " ".join(t for t in told if t) or "nothing yet: too little is run."
 
 
 def against(a, b):
@@ -161,8 +164,8 @@ def against(a, b):
         return "not compared with"
     if a.bound and b.bound:
         relation = {1: "carries less than", -1: "carries more than", 0: "carries what is not told apart from"}[sign]
-        x, y = (tables.number(1e6 * v.rungs[-1][1], 2) for v in (a, b))
-        return f"{relation} (flux of the top rung {x} against {y} e-6 m3/s)"
+        x, y = (tables.number(1e6 * flux, 2) for _, flux, _ in top_of_both(a, b))
+        return f"{relation} (flux of the highest filling of both {x} against {y} e-6 m3/s)"
     relation = {1: "more than", -1: "less than", 0: "not told apart from"}[sign]
     return f"{relation} ({a.words()} against {b.words()})"
 
@@ -170,7 +173,7 @@ def against(a, b):
 def vertical(at):
     """At 0 degrees the concentration is known: Qs / (A v_s), v_s = U/(1 - C) - slip, with the closures' terminal speed."""
     known = {0.58: 0.01670, 0.72: 0.01173, 1.165: 0.00596}  # of spheres, rho_f 1000 kg/m3
-    found = [(u, value, known[u]) for (name, i, u), value in at.items() if name == "S1" and i == 0 and u in known and not value.bound]
+    found = [(u, value, known[u]) for (name, i, u), value in at.items() if name == "S1" and i == 0 and u in known and not value.bound and not value.failed]
     if not found:
         return ""
     return "At 0 degrees, against the closed form of uniform flow: " + "; ".join(

@@ -46,11 +46,12 @@ class Value:
     rungs: list
     slides: bool
     failed: str = ""
+    partial: bool = False  # higher rungs were not run
 
     def words(self):
         if self.failed:
             return self.failed if self.failed == NOT_RUN else "failed"
-        text = f"> {100 * self.value:.0f} %" if self.bound else f"{100 * self.value:.2g} +- {100 * self.error:.1g} %"
+        text = f"> {100 * self.value:.0f} %" + (", no higher filling run" if self.partial else "") if self.bound else f"{100 * self.value:.2g} +- {100 * self.error:.1g} %"
         return text + (" (slides back)" if self.slides else "")
 
 
@@ -60,21 +61,30 @@ def value_of(rungs, failed=""):
         return Value(math.nan, math.nan, 0, [], False, failed)
     at, error = measures.crossing([(0.0, 0.0, 0.0), *rungs], section.INJECTED)
     slides = any(flux < -2 * (0 if math.isnan(e) else e) and flux < -1e-3 * section.INJECTED for _, flux, e in rungs)
+    if at == "above" and failed == NOT_RUN:
+        return Value(rungs[-1][0], math.nan, 1, rungs, slides, partial=True)
     if at == "above":
         return Value(rungs[-1][0], math.nan, 0 if failed else 1, rungs, slides, failed)
     return Value(at, error, 0, rungs, slides, "")
 
 
+def top_of_both(a, b):
+    """The highest rung that both ladders have."""
+    last = min(len(a.rungs), len(b.rungs)) - 1
+    return a.rungs[last], b.rungs[last]
+
+
 def larger(a, b):
-    """+1: a is larger than b, -1: smaller, 0: the errors do not tell them apart; None: one failed. Where neither ladder reaches the
-    injected flux, the one whose top rung carries less needs more solid."""
+    """+1: a is larger than b, -1: smaller, 0: the errors do not tell them apart; None: one failed, or nothing can be said. Where
+    neither ladder reaches the injected flux, the one that carries less at the highest filling of both needs more solid."""
     if a is None or b is None or a.failed or b.failed or math.isnan(a.value) or math.isnan(b.value):
         return None
     if a.bound and b.bound:
-        (_, x, ex), (_, y, ey) = a.rungs[-1], b.rungs[-1]
+        (_, x, ex), (_, y, ey) = top_of_both(a, b)
         difference, spread = y - x, math.hypot(0 if math.isnan(ex) else ex, 0 if math.isnan(ey) else ey)
-    elif a.bound or b.bound:
-        return 1 if a.bound else -1
+    elif a.bound or b.bound:  # the bound is larger, if it lies above the other value
+        bound, value, sign = (a, b, 1) if a.bound else (b, a, -1)
+        return sign if bound.value > value.value else None
     else:
         difference, spread = a.value - b.value, math.hypot(a.error, b.error)
     return 0 if abs(difference) <= ROOM * spread else (1 if difference > 0 else -1)
@@ -145,6 +155,15 @@ def long_table(series, values, x):
     rows = []
     for name, points in series.items():
         for at, p in points:
+            if values[p].failed == NOT_RUN:
+                continue
             fluxes = ", ".join(f"{100 * c:.0f} %: {tables.number(1e6 * flux, 2)}" for c, flux, _ in values[p].rungs)
             rows.append([name, "cluster" if math.isnan(at) else f"{at:.4g}", values[p].words(), fluxes])
     return ["", x, "C at the injected flux", "flux at a filling [1e-6 m3/s]"], rows
+
+
+def not_run(series, values, x):
+    """What of a figure is not run, as a sentence; empty if all is."""
+    left = {name: [f"{at:g}" for at, p in points if values[p].failed == NOT_RUN] for name, points in series.items()}
+    named = [name if left[name] == ["nan"] else f"{name}: {', '.join(left[name])}" for name in left if left[name]]
+    return f"Not run (at {x}): {'; '.join(named)}." if named else ""

@@ -14,6 +14,7 @@ SECTION_RESULTS = {"flux": ("solids flux at 5 %", "1e-6 m3/s", 1e6), "height": (
                    "gradient": ("pressure gradient", "Pa/m", 1.0)}
 CONCENTRATION = 0.05
 COLOUR = {"sphere": 7, "friction": 4, "eccentric": 3, "cluster": 0}  # of a kind of level, in charts.COLOURS
+UNKNOWN_STEP = {"critical": math.nan, "contacts": 0}
 COLUMNS = {4: 2, 7: 4, 8: 4}  # of a chart with so many panels; else 3
 PARTS_SHOWN = ("drum", "section 80")
 CENTRAL_VELOCITY = 0.58  # of the annulus in the first chart [m/s]
@@ -138,7 +139,11 @@ class Group:
 
 
 class Study:
-    def __init__(self, store, build, size, bodies, scenes, names, seeds, output):
+    """`retime`: the first run of each cell is repeated, for its times alone, after all that is to be run has been run; such times
+    are preferred to those of the study wherever they are there."""
+
+    def __init__(self, store, build, size, bodies, scenes, names, seeds, output, retime=False):
+        self.retime = retime
         self.store, self.build, self.size, self.output = store, build, size, output
         self.bodies, self.scenes, self.names, self.seeds = bodies, scenes, names, seeds
         self.groups, self.failures = [], []
@@ -162,16 +167,17 @@ class Study:
         found = self.store.run_all("time steps", step_jobs.values())
         self.critical = {key: found[job.key()] for key, job in step_jobs.items()}
         for (name, _), result in self.critical.items():
-            if not runs.good(result):
-                return [f"the time step of {name}: {result.get('failed', 'not run yet')}"]
+            if "failed" in result:
+                return [f"the time step of {name}: {result['failed']}"]
+        self.critical = {key: result if runs.good(result) else UNKNOWN_STEP for key, result in self.critical.items()}
         jobs = {}
         for body, (dry_levels, wet_levels) in plan.items():
             for scene in dry.SCENES:
-                for level in dry_levels if scene in self.scenes else ():
+                for level in self.with_step(dry_levels, RESTITUTION_DRY) if scene in self.scenes else ():
                     for seed in dry.SEEDS[: self.seeds * dry.MORE_SEEDS.get(scene, 1)]:
                         jobs[body, scene, level.name, seed] = self.dry(scene, level, seed)
             for point in self.size.points if "section" in self.scenes else ():
-                for level in wet_levels:
+                for level in self.with_step(wet_levels, RESTITUTION_SECTION):
                     for seed in section.SEEDS[: self.seeds]:
                         jobs[body, point, level.name, seed] = self.wet(body, point, level, seed)
         results = {}
@@ -179,6 +185,12 @@ class Study:
             title = place if place in dry.SCENES else f"annulus {place[0]} degrees, {place[1]} m/s"
             results |= self.store.run_all(title, [job for (_, at, _, _), job in jobs.items() if at == place])
         of = {key: results[job.key()] for key, job in jobs.items()}
+        first = {}
+        for (body, place, name, _), job in jobs.items():
+            again = dataclasses.replace(job, name=f"{job.name}, for its time", inputs=job.inputs | {"again": "for its time"})
+            first.setdefault((body, place, name), again)
+        times = self.store.run_all("times", first.values()) if self.retime else {job.key(): self.store.result_of(job) for job in first.values()}
+        self.again = {key: times[job.key()] for key, job in first.items() if times[job.key()] and runs.good(times[job.key()])}
         for body, (dry_levels, wet_levels) in plan.items():
             for scene, (what, unit, *_) in dry.SCENES.items():
                 if scene in self.scenes:
@@ -189,6 +201,10 @@ class Study:
                     self.group(f"section {point[0]} {point[1]} {quantity}", body, title, unit, wet_levels, of, point,
                                lambda r, q=quantity, s=scale: r["mean"][q][0] * s, RESTITUTION_SECTION, JUDGED_BY[point[0]] == quantity)
         return self.failures
+
+    def with_step(self, chosen, restitution):
+        """Those whose time step is known: all, unless only kept results are shown."""
+        return [level for level in chosen if not math.isnan(self.critical[level.name, restitution]["critical"])]
 
     def dry(self, scene, level, seed):
         bodies = dry.SCENES[scene][4 if self.size.few_bodies else 3]
@@ -215,12 +231,13 @@ class Study:
             if failed:
                 self.failures.append(f"{title.split(':')[0]}, {level.name}: {failed}")
             value, error = measures.mean_and_error([value_of(r) for r in good])
-            mean = lambda of: measures.mean_and_error([of(r) for r in good])[0]
+            timed = [self.again[body, place, level.name]] if (body, place, level.name) in self.again else good
+            mean = lambda of: measures.mean_and_error([of(r) for r in timed])[0]
             critical = self.critical[level.name, restitution]
             period = dry.FRAME if place in dry.SCENES else section.FLUID_STEP
             rows.append(Row(level, value, error, len(good), mean(lambda r: r["cpu"]), mean(lambda r: r["wall"]),
                             {part: mean(lambda r, part=part: r["parts"][part]) for part in timing.PARTS},
-                            levels.dividing_step(period, critical["critical"])[0], critical, failed))
+                            levels.dividing_step(period, critical["critical"])[0] if self.with_step([level], restitution) else math.nan, critical, failed))
         group = Group(scene, body, title, unit, rows, judged, place in dry.SCENES or place[1] == CENTRAL_VELOCITY)
         group.compare()
         self.groups.append(group)
@@ -245,7 +262,7 @@ class Study:
                               row.critical["critical"], row.critical["contacts"], row.failed])
         steps = []
         for (name, restitution), result in sorted(self.critical.items(), key=lambda item: item[0][1]):
-            if name.startswith("S1 "):  # a sphere's step is that of S1
+            if name.startswith("S1 ") or result is UNKNOWN_STEP:  # a sphere's step is that of S1
                 continue
             steps.append([name, restitution, result["critical"], str(result["contacts"]), levels.SAFETY * result["critical"]])
         step_header = ["level", "restitution", "critical step s", "contacts then", f"{levels.SAFETY} of it s"]

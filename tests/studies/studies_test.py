@@ -199,6 +199,12 @@ class Scripts(unittest.TestCase):
             again = run("accuracy-cost", *words)
             self.assertNotIn(" s of CPU |", again.stderr)  # nothing is repeated
             self.assertEqual(again.returncode, 0)
+            timed = run("accuracy-cost", *words, "--retime")
+            self.assertEqual(timed.stderr.count(", for its time: "), 2)  # a run for each level, and no other
+            self.assertEqual(timed.stderr.count(" s of CPU |"), 2)
+            more = run("accuracy-cost", *words[:-6], "C8", *words[-6:], "--show")  # S1 C8
+            self.assertEqual((more.returncode, " s of CPU |" in more.stderr), (0, False), more.stderr)
+            self.assertRegex((pathlib.Path(folder) / "results.md").read_text(), r"\| slope of a heap \| -\S+ \+- \S+; \S+ s \(1\) \| not run \|")
 
     def test_bad_words(self):
         for script, words, says in (
