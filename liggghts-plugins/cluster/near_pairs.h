@@ -72,6 +72,8 @@ class NearPairs : protected LAMMPS_NS::Pointers {
   /// body has moved farther.
   void update_bodies(double dt);
   const BodyFrame& frame(int i) const { return frame_[i]; }
+  /// Local and ghost atoms, as of the list.
+  int body_count() const { return static_cast<int>(path_.size()); }
   /// Length of the path of local or ghost atom i since the list was made [m].
   double path(int i) const { return path_[i]; }
   /// By how much it grew in this step [m].

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // fix nve/cluster: motion of clusters and plain spheres, velocity Verlet with exact rotations.
 #include "cluster/bodies.h"
+#include "cluster/sleep_cluster.h"
 #include "host/style_registry.h"
 
 #include "atom.h"
@@ -44,6 +45,7 @@ class FixNveCluster : public Fix {
   void init() override {
     reset_dt();
     bodies_ = &FixBodies::require(lmp);
+    sleep_ = FixSleepCluster::find(lmp);
     streamed_ = static_cast<FixPropertyAtom*>(
         modify->find_fix_property("release_fix_insert_stream", "property/atom", "vector", 5, 0, style, false));
   }
@@ -79,7 +81,7 @@ class FixNveCluster : public Fix {
     if (streamed_)
       follow_stream();
     for (int i = 0; i < atom->nlocal; ++i) {
-      if (!(atom->mask[i] & groupbit))
+      if (!(atom->mask[i] & groupbit) || (sleep_ && sleep_->asleep(i)))
         continue;
       const double per_mass = 1 / atom->rmass[i];
       kick(i, per_mass);
@@ -92,7 +94,7 @@ class FixNveCluster : public Fix {
 
   void final_integrate() override {
     for (int i = 0; i < atom->nlocal; ++i) {
-      if (!(atom->mask[i] & groupbit))
+      if (!(atom->mask[i] & groupbit) || (sleep_ && sleep_->asleep(i)))
         continue;
       const double per_mass = 1 / atom->rmass[i];
       kick(i, per_mass);
@@ -199,7 +201,8 @@ class FixNveCluster : public Fix {
   }
 
   FixBodies* bodies_ = nullptr;
-  FixPropertyAtom* streamed_ = nullptr; ///< what fix insert/stream keeps per atom, if there is one
+  const FixSleepCluster* sleep_ = nullptr; ///< null where bodies never sleep
+  FixPropertyAtom* streamed_ = nullptr;    ///< what fix insert/stream keeps per atom, if there is one
   double dt_ = 0;
   double half_kick_ = 0;
 };

@@ -5,6 +5,7 @@
 #include "cluster/pair_gran_cluster.h"
 
 #include "cluster/restart_version.h"
+#include "cluster/sleep_cluster.h"
 #include "host/style_registry.h"
 
 #include "atom.h"
@@ -138,8 +139,12 @@ void PairGranCluster::init_granular() {
   FixContactHistory& history = FixContactHistory::require(lmp);
   if (!near_)
     near_ = std::make_unique<NearPairs>(lmp, *bodies_, history);
-  NearPairs* near = near_.get();
-  history.hand_over = [near](bool keep) { near->hand_over(keep); };
+  resting_ = FixSleepCluster::find(lmp) ? std::make_unique<RestingPairs>() : nullptr;
+  history.hand_over = [this](bool keep) {
+    if (resting_)
+      resting_->release(*near_);
+    near_->hand_over(keep);
+  };
 }
 
 bool PairGranCluster::contact_match(const std::string type, const std::string model) {

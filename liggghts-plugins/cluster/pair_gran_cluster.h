@@ -5,6 +5,7 @@
 
 #include "cluster/contact_law.h"
 #include "cluster/near_pairs.h"
+#include "cluster/resting_pairs.h"
 
 #include <mpi.h>
 
@@ -63,6 +64,9 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   int gather_into(Block& block, const NearPair& p, const double* offset, const int* ids, int count, int old_first,
                   int old_last);
   RelativePose pose_of(const NearPair& p, const double* offset) const;
+  void rest();
+  RestingPairs::Kept evaluate_alone(int n);
+  void add_resting_forces();
   template <class Block> void flush(Block& block);
   template <DampingLaw law, class Block> void compute_block(Block& block, int padded);
   template <class Block> void share_damping(Block& block, int padded);
@@ -72,6 +76,7 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   ClusterContactWords words_;
   FixBodies* bodies_ = nullptr;
   std::unique_ptr<NearPairs> near_;
+  std::unique_ptr<RestingPairs> resting_; ///< null unless bodies may sleep
   CandidateSearch search_;
   std::vector<int> hits_;
   PairInBlock in_block_[ContactBlock::capacity];

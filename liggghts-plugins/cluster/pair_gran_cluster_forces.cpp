@@ -71,6 +71,8 @@ void PairGranCluster::compute_force(int eflag, int vflag, int addflag) {
   near.next.clear(pair_count);
   filled_ = pairs_in_block_ = contact_count_ = near_count_ = 0;
   near.update_bodies(path_safety * update->dt);
+  if (resting_)
+    rest();
   const double* x = atom->x[0]; // LIGGGHTS keeps the rows of these arrays one after the other
 
   int* first = near.next.first.data();
@@ -92,6 +94,8 @@ void PairGranCluster::compute_force(int eflag, int vflag, int addflag) {
   flush(block_);
   first[pair_count] = contact_count_;
   near.accept();
+  if (resting_)
+    add_resting_forces();
   near.set_counts(contact_count_, near_count_);
 }
 

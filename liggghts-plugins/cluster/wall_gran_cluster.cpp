@@ -7,6 +7,7 @@
 #include "cluster/impact_mass.h"
 #include "cluster/restart_version.h"
 #include "cluster/shared_contacts.h"
+#include "cluster/sleep_cluster.h"
 #include "cluster/wall_gaps.h"
 #include "host/style_registry.h"
 
@@ -152,6 +153,7 @@ void FixWallGranCluster::init() {
       fail(problem.what());
     }
   bodies_ = FixBodies::find(lmp);
+  sleep_ = stands_still() ? FixSleepCluster::find(lmp) : nullptr;
   if (bodies_)
     for (int id = 0; id < bodies_->shapes().size(); ++id)
       if (bodies_->shapes().surface(id).count > WallContactKey::kMaxSubSpheres)
@@ -189,6 +191,8 @@ void FixWallGranCluster::rebuild_near_list() {
   near_clusters_.clear();
   for (const int i : near_)
     (words_.surface && moves_like_sphere(i) ? near_spheres_ : near_clusters_).push_back(i);
+  resting_.clear();
+  asleep_.clear();
   near_list_stale_ = false;
 }
 
@@ -464,6 +468,12 @@ void FixWallGranCluster::post_force(int) {
     rebuild_near_list();
   local_sums_.fill(0.0);
   summed_at_ = -1;
+  if (sleep_)
+    rest();
+  near_forces();
+}
+
+void FixWallGranCluster::near_forces() {
   if (!near_spheres_.empty())
     sphere_forces();
   touches_.clear();

@@ -20,6 +20,7 @@
 namespace eccentra::cluster {
 
 class FixBodies;
+class FixSleepCluster;
 struct PlainWall;
 
 /// Scalar: number of (sub-)contacts. Vector: force on the wall (1-3) [N] and torque on the wall (4-6) [N m] about a
@@ -95,6 +96,16 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   /// Scales the damping of the atom's contacts, touches_[first] and after, to what all of them are together.
   void share_damping(int i, std::size_t first);
   template <class Stiffness> bool share_damping_of_one_normal(int i, std::size_t first, const Stiffness& stiffness);
+  /// Forces on near_spheres_ and near_clusters_.
+  void near_forces();
+  bool stands_still() const;
+  void rest();
+  struct Resting {
+    int atom;
+    std::array<double, 6> force; ///< and torque
+    std::array<double, 7> sums;
+  };
+  Resting evaluate_alone(int i);
   /// Forces of all collected contacts, a block at a time.
   void add_forces();
   /// Contacts, forces and torques of near_spheres_, all in one go.
@@ -124,9 +135,12 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   int largest_type_ = 0;
   FixBodies* bodies_ = nullptr; ///< null where the scene has no clusters
   WallHistory history_;
-  std::vector<int> near_;          ///< local atoms that may touch before the next neighbour build
-  std::vector<int> near_spheres_;  ///< of these, spheres at a primitive wall
-  std::vector<int> near_clusters_; ///< the others
+  std::vector<int> near_;                  ///< local atoms that may touch before the next neighbour build
+  std::vector<int> near_spheres_;          ///< of these, spheres at a primitive wall
+  std::vector<int> near_clusters_;         ///< the others
+  const FixSleepCluster* sleep_ = nullptr; ///< null where no body sleeps, or this wall moves
+  std::vector<char> asleep_;               ///< of near_, in the last step
+  std::vector<Resting> resting_;           ///< of these, in the order of near_
   std::array<int, kBatch> in_block_{};
   struct ClusterInBlock {
     int atom, first, last; ///< contacts first..last-1 of the block are this atom's
