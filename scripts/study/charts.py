@@ -47,10 +47,11 @@ class Panel:
     band: tuple = ()
     legend: bool = True
     floor: float = None
+    numbered: bool = True  # the x axis
 
 
 def _ticks(low, high, log):
-    if log:
+    if log and high / low > 6:  # else those of a linear axis are more
         first, last = math.floor(math.log10(low) + 1e-9), math.ceil(math.log10(high) - 1e-9)
         parts = (1, 2, 5) if high / low < 500 else (1,)
         ticks = [m * 10.0**d for d in range(first, last + 1) for m in parts]
@@ -58,7 +59,7 @@ def _ticks(low, high, log):
     span = high - low
     step = 10 ** math.floor(math.log10(span / 4))
     step = next(step * m for m in (1, 2, 5, 10) if span / (step * m) <= 6)
-    return [k * step for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
+    return [round(k * step, 12) for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
 
 
 def _range(values, log, floor=None):
@@ -105,7 +106,7 @@ def _panel(panel, out, left, top):
     xlow, xhigh = _range([p.x for p in points], panel.log_x)
     ylow, yhigh = _range(ys + ([panel.band[0]] if panel.band else []), panel.log_y, panel.floor)
     inner_w, inner_h = WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM
-    named = [s for s in panel.series if s.name] if panel.legend else []
+    named = [s for s in panel.series if s.name and any(math.isfinite(p.y) for p in s.points)] if panel.legend else []
     if named:  # room above the points
         free = 1 - (LINE * len(named) + 8) / inner_h
         yhigh = ylow * (yhigh / ylow) ** (1 / free) if panel.log_y else ylow + (yhigh - ylow) / free
@@ -122,7 +123,8 @@ def _panel(panel, out, left, top):
         say(LEFT + inner_w - 4, TOP + inner_h - 5, panel.band[1], 'text-anchor="end" font-size="10" fill="#666"')
     for v in _ticks(xlow, xhigh, panel.log_x):
         out.append(f'<line x1="{at_x(v):.1f}" x2="{at_x(v):.1f}" y1="{TOP}" y2="{TOP + inner_h}" stroke="#ddd"/>')
-        say(at_x(v), TOP + inner_h + 15, f"{v:g}", 'text-anchor="middle"')
+        if panel.numbered:
+            say(at_x(v), TOP + inner_h + 15, f"{v:g}", 'text-anchor="middle"')
     for v in _ticks(ylow, yhigh, panel.log_y):
         out.append(f'<line x1="{LEFT}" x2="{LEFT + inner_w}" y1="{at_y(v):.1f}" y2="{at_y(v):.1f}" stroke="#ddd"/>')
         say(LEFT - 5, at_y(v) + 4, f"{v:g}", 'text-anchor="end"')

@@ -187,7 +187,7 @@ def panel(number, series, values):
             made = [charts.Point(place, 100 * values[p].value, 100 * values[p].error, name, bound=values[p].bound)
                     for place, (name, points) in enumerate(series.items()) for x, p in points if x == u]
             shown.append(charts.Series(f"{u} m/s", made, charts.COLOURS[k]))
-        return charts.Panel(f"Figure {number}: {TITLES[number]}", "level of detail, from C8 to D48", WANTED, shown, floor=0)
+        return charts.Panel(f"Figure {number}: {TITLES[number]}", "level of detail, from C8 to D48", WANTED, shown, floor=0, numbered=False)
     for k, (name, points) in enumerate(series.items()):
         if number in (13, 14) and "turning" in name:
             continue

@@ -118,16 +118,15 @@ class Study:
         return page
 
     def panel(self, inclination, family, rows, reference):
+        """Signed deviations: most are smaller than their errors."""
         kinds = {}
         for row in rows:
-            off, error = row["deviation"]
-            if math.isnan(off):
+            off, error = (0.0, math.nan) if row["reference"] else row["deviation"]
+            if math.isnan(off) or math.isnan(row["cpu"]):
                 continue
             kind = "explicit" if "explicit" in row["name"] else row["name"].split(" ")[0] if family == "regularisation" else ""
-            shown = max(abs(off), error if not math.isnan(error) else 0)
-            kinds.setdefault(kind, []).append(charts.Point(row["cpu"], 100 * shown, 100 * error, row["name"].replace(" explicit", "")
-                                                           .replace(f"{kind} ", "") if kind else row["name"]))
-        series = [charts.Series(kind, sorted(points, key=lambda p: p.x), charts.COLOURS[k], family != "void fraction")
-                  for k, (kind, points) in enumerate(kinds.items())]
-        return charts.Panel(f"{family}, {inclination} degrees", "CPU seconds of a run", f"pressure gradient: off {reference} [%]", series,
-                            True, True)
+            label = row["name"].replace(" explicit", "").replace(f"{kind} ", "") if kind else row["name"]
+            kinds.setdefault(kind, []).append(charts.Point(row["cpu"], 100 * off, 100 * error, label))
+        series = [charts.Series(kind or "semi-implicit" * (family == "fluid step"), sorted(points, key=lambda p: p.x), charts.COLOURS[k],
+                                family != "void fraction") for k, (kind, points) in enumerate(kinds.items())]
+        return charts.Panel(f"{family}, {inclination} degrees", "CPU seconds of a run", f"pressure gradient: off {reference} [%]", series, True)
