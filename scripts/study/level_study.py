@@ -350,8 +350,14 @@ class Study:
         page = []
         for body in self.bodies:
             judged = [group for group in self.groups if group.body == body and group.judged]
-            names = list(dict.fromkeys(row.level.name for group in judged for row in group.rows))
             if judged:
                 page.append(f"Deviation from the finest {body} with its standard error, CPU seconds of a run, and the number of runs (seeds):\n")
-                page.append(tables.markdown(["", *names], self.cells(names, judged)))
+            dry_ones = [group for group in judged if group.scene in dry.SCENES]
+            for groups in (dry_ones, [group for group in judged if group not in dry_ones]):
+                names = list(dict.fromkeys(row.level.name for group in groups for row in group.rows))
+                table = [["", *names], *self.cells(names, groups)]
+                if groups is dry_ones:  # fewer scenes than levels
+                    table = [list(column) for column in zip(*table)]
+                if groups:
+                    page.append(tables.markdown(table[0], table[1:]))
         return page
