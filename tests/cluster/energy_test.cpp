@@ -20,6 +20,14 @@ int impacts_asked_for() {
   return text ? std::atoi(text) : 500;
 }
 
+/// Time step [s]; ECCENTRA_IMPACT_STEP asks for another one, to see impacts that do gain.
+double impact_step() {
+  const char* text = std::getenv("ECCENTRA_IMPACT_STEP");
+  return text ? std::atof(text) : 5e-6;
+}
+
+constexpr double impact_time = 0.04; // s until all pairs have parted
+
 struct Pair {
   double before, after;
   Eigen::Vector3d momentum_before, momentum_after;
@@ -70,12 +78,12 @@ std::vector<Pair> collide(const std::vector<shape::ClusterShape>& shapes, int co
     }
   }
   cluster::FixBodies& bodies = cluster::FixBodies::require(&session.lammps());
-  session.script("timestep 5e-6\nrun 0\n");
+  session.script("timestep " + std::to_string(1e6 * impact_step()) + "e-6\nrun 0\n");
   std::vector<Pair> pairs(count, Pair{0, 0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
   for (int n = 0; n < count; ++n)
     for (int k = 1; k <= 2; ++k)
       pairs[n].before += energy_of(session, bodies, 2 * n + k, pairs[n].momentum_before);
-  session.command("run 8000");
+  session.command("run " + std::to_string(std::lround(impact_time / impact_step())));
   for (int n = 0; n < count; ++n)
     for (int k = 1; k <= 2; ++k)
       pairs[n].after += energy_of(session, bodies, 2 * n + k, pairs[n].momentum_after);

@@ -80,6 +80,11 @@ class Measured:
         """All numbers that the first group of `pattern` finds in the output."""
         return [float(text) for text in re.findall(pattern, self.output)]
 
+    def spheres(self, name):
+        """Rows x y z r of a .clump file."""
+        with open(f"{self.folder}/{name}") as stream:
+            return [[float(word) for word in line.split()] for line in stream if line.strip() and not line.startswith("#")]
+
     def field_range(self, name):
         """Largest less smallest value of the cells of an ASCII scalar field of OpenFOAM at the last time that was written."""
         cells = [float(line) for line in re.findall(r"^[-+0-9.e]+$", self._internal_field(name), re.M)][1:]  # the first: how many

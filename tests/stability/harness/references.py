@@ -42,6 +42,31 @@ def hertz_energy(youngs, poisson, reduced_radius, overlap):
     return 8 / 15 * effective * math.sqrt(reduced_radius) * overlap**2.5
 
 
+CUBE8_SPACING, CUBE8_RADIUS = 0.305741, 0.297801  # of cube 8, over its diameter
+
+
+def cubes_apart(diameter, overlap):
+    """Half the distance of two cubes of 8 spheres, face on, whose facing spheres overlap by a part of their diameter."""
+    return (CUBE8_SPACING / 2 + CUBE8_RADIUS * (1 - overlap)) * diameter
+
+
+def cubes_energy(spheres, youngs, poisson, apart):
+    """Hertz's energy [J] of all contacts of two like bodies (rows x y z r) that are `apart` along x."""
+    energy = 0.0
+    for x, y, z, r in spheres:
+        for a, b, c, s in spheres:
+            overlap = r + s - math.dist((x, y, z), (a + apart, b, c))
+            if overlap > 0:
+                energy += hertz_energy(youngs, poisson, r * s / (r + s), overlap)
+    return energy
+
+
+GTEST_PASSED = r"\[  PASSED  \] (\d+) test"
+FUZZ_ACCEPTED, FUZZ_REFUSED = r"(\d+) accepted, ", r"(\d+) refused with one sentence"
+IMPACT_PAIRS = r"(\d+) pairs,"
+IMPACT_GAIN = r"largest relative change of energy ([-+0-9.e]+)"
+
+
 def spread(values, line=True):
     """(largest - smallest) / |mean| of the last half of a series; `line`: about its straight line of least squares."""
     late = values[len(values) // 2:]

@@ -35,9 +35,9 @@ ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": 
                "WM_PROJECT_DIR": "/usr/share/openfoam"}
 
 
-def _watch(command, folder, output):
-    """Runs a program; its exit status and its resident memory, pairs of time [s] and bytes."""
-    environment = {**ENVIRONMENT, **os.environ, "PWD": str(folder)}
+def _watch(command, folder, output, ours):
+    """Runs a program; its exit status and its resident memory, pairs of time [s] and bytes. ours: what our tests look for."""
+    environment = {**ENVIRONMENT, **os.environ, **ours, "PWD": str(folder)}
     environment.pop("DISPLAY", None)  # Open MPI looks for graphics cards there, and dies with the X server
     process = subprocess.Popen(command, cwd=folder, stdout=output, stderr=subprocess.STDOUT, env=environment)
     memory, start = [], time.monotonic()
@@ -60,7 +60,8 @@ def _execute(case: Case, run: dict, program, folder: pathlib.Path):
     """One run of the case in a folder of its own."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    values = {**case.values, **run}
+    build, source = program.parent.parent, pathlib.Path(__file__).resolve().parents[3]
+    values = {"tests": build / "tests", "build": build, "source": source, **case.values, **run}
     for name, text in case.files.items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -68,6 +69,7 @@ def _execute(case: Case, run: dict, program, folder: pathlib.Path):
     (folder / "in.case").write_text(fill(case.scene, values))
     ranks = int(values.get("ranks", 1))
     commands = [fill(line, values).split() for line in case.commands] or [[program.name, "-in", "in.case", "-log", "none"]]
+    places = {"ECCENTRA_BIN": str(program.parent), "ECCENTRA_LIB": str(build / "lib"), "ECCENTRA_SOURCE": str(source)}
     status, memory = 0, []
     with open(folder / "output", "w") as output:
         for command in commands:
@@ -82,7 +84,7 @@ def _execute(case: Case, run: dict, program, folder: pathlib.Path):
                 break
             if ranks > 1 and not serial:
                 command = ["mpirun", "--oversubscribe", "--bind-to", "none", "-np", str(ranks)] + command
-            status, memory = _watch(command, folder, output)
+            status, memory = _watch(command, folder, output, places)
             if status:
                 break
     text = (folder / "output").read_text(errors="replace")
