@@ -5,6 +5,7 @@
 
 #include "host/style_registry.h"
 #include "link/stop_signal.h"
+#include "link/waiting.h"
 
 #include <mpi.h>
 
@@ -112,6 +113,11 @@ void FixFluidCouple::read(const std::vector<std::string>& words) {
       if (end == text.c_str() || *end || number < 1 || number > 1000000000L)
         refuse(keyword + " has '" + text + "': give a whole number of " + what + " from 1 on");
       (keyword == "every" ? interval_ : checkpoint_every_) = static_cast<int>(number);
+    } else if (keyword == "overlap") {
+      const std::string& text = value("yes or no");
+      if (text != "yes" && text != "no")
+        refuse("overlap has '" + text + "': give yes or no");
+      overlap_ = text == "yes";
     } else if (keyword == "keys") {
       keys_ = value("a folder made by eccentra-keys");
     } else if (keyword == "timeout" || keyword == "wait") {
@@ -124,8 +130,8 @@ void FixFluidCouple::read(const std::vector<std::string>& words) {
       waits = true;
     } else {
       refuse("unknown word '" + keyword +
-             "': known are link solver, link socket ADDRESS, every N, checkpoint M, keys FOLDER, timeout SECONDS "
-             "and wait SECONDS");
+             "': known are link solver, link socket ADDRESS, every N, checkpoint M, keys FOLDER, timeout SECONDS, "
+             "wait SECONDS and overlap yes|no");
     }
   }
   if (link_.empty())
@@ -134,6 +140,10 @@ void FixFluidCouple::read(const std::vector<std::string>& words) {
         "runs apart)");
   if ((waits || !keys_.empty()) && link_ != "socket")
     refuse("keys, timeout and wait belong to link socket: drop them");
+  if (overlap_ && link_ != "socket")
+    refuse(
+        "overlap yes belongs to link socket: with link solver particles and fluid share their ranks, which take turns "
+        "whatever the order; drop it");
   if (interval_ == 0)
     refuse("the word 'every' is missing: add every N, the DEM steps from one meeting with the fluid to the next");
 }
@@ -180,6 +190,7 @@ link::DemTerms FixFluidCouple::terms() const {
   }
   terms.needed = forces_->needs();
   terms.extents = bodies_ != nullptr;
+  terms.overlap = overlap_;
   terms.fluid_density = forces_->rho_f();
   const fluid::Rheology& law = forces_->rheology();
   terms.rheology = {law.yield_stress, law.consistency, law.index};
@@ -219,14 +230,31 @@ void FixFluidCouple::setup(int) {
   }
   countdown_ = interval_;
   plan_checkpoint();
+  leave_fluid();
+}
+
+void FixFluidCouple::leave_fluid() {
   left_fluid_at_ = MPI_Wtime();
+  waited_before_ = link::waiting_seconds();
 }
 
 void FixFluidCouple::pre_initial_integrate() {
   if (resuming_)
     restore_forces();
+  if (overlap_ && !ahead_)
+    begin_interval();
   if (countdown_ == 1)
     look_for_signals();
+}
+
+void FixFluidCouple::begin_interval() {
+  try {
+    peer_->advance();
+  } catch (const link::Refusal& refusal) {
+    keep_particles();
+    refuse(refusal.what());
+  }
+  ahead_ = true;
 }
 
 void FixFluidCouple::end_of_step() {
@@ -247,6 +275,11 @@ void FixFluidCouple::end_of_step() {
 void FixFluidCouple::post_run() {
   if (!agreed_)
     return;
+  if (comm->me == 0)
+    for (FILE* out : {screen, logfile})
+      if (out)
+        std::fputs(load_.table().c_str(), out);
+  load_ = {};
   try {
     peer_->run_ended();
   } catch (const link::Refusal& refusal) {
@@ -292,8 +325,8 @@ void FixFluidCouple::pack_extent(int i, double* extent) {
   }
 }
 
-link::DemTotals FixFluidCouple::totals() const {
-  link::DemTotals sums;
+void FixFluidCouple::add_totals(double computed, link::Meeting& meeting) const {
+  link::DemTotals& sums = meeting.totals;
   const FluidReaction reaction = forces_->reaction();
   enum {
     kVolume,
@@ -303,11 +336,15 @@ link::DemTotals FixFluidCouple::totals() const {
     kPosition = kMomentum + 3,
     kVelocity = kPosition + 3,
     kParticles = kVelocity + 3,
+    kComputed,
     kCount
   };
   double mine[kCount] = {};
   mine[kParticles] = atom->nlocal;
-  double fastest = 0;
+  mine[kComputed] = computed;
+  enum { kFastest, kMostParticles, kMostComputed, kMaxima };
+  double most[kMaxima] = {0, double(atom->nlocal), computed};
+  double& fastest = most[kFastest];
   for (int i = 0; i < atom->nlocal; ++i) {
     mine[kVolume] += volume_[i];
     mine[kMass] += atom->rmass[i];
@@ -323,8 +360,12 @@ link::DemTotals FixFluidCouple::totals() const {
   }
   double all[kCount];
   MPI_Allreduce(mine, all, kCount, MPI_DOUBLE, MPI_SUM, world);
-  MPI_Allreduce(&fastest, &sums.fastest, 1, MPI_DOUBLE, MPI_MAX, world);
-  sums.fastest = std::sqrt(sums.fastest);
+  MPI_Allreduce(MPI_IN_PLACE, most, kMaxima, MPI_DOUBLE, MPI_MAX, world);
+  sums.fastest = std::sqrt(fastest);
+  meeting.load.ranks = comm->nprocs;
+  meeting.load.most_particles = std::llround(most[kMostParticles]);
+  meeting.load.mean_seconds = all[kComputed] / comm->nprocs;
+  meeting.load.most_seconds = most[kMostComputed];
   sums.particles = std::llround(all[kParticles]);
   for (int i = 0; i < modify->nfix; ++i) {
     Fix* const fix = modify->fix[i];
@@ -339,11 +380,12 @@ link::DemTotals FixFluidCouple::totals() const {
   std::copy_n(all + kMomentum, 3, sums.momentum);
   std::copy_n(all + kPosition, 3, sums.volume_position);
   std::copy_n(all + kVelocity, 3, sums.volume_velocity);
-  return sums;
 }
 
 void FixFluidCouple::meet(double elapsed) {
   const double arrived = MPI_Wtime();
+  const double waited = link::waiting_seconds() - waited_before_;
+  const double computed = elapsed > 0 ? std::max(0.0, arrived - left_fluid_at_ - waited) : 0.0;
   link::Meeting meeting;
   meeting.needed = forces_->needs();
   meeting.elapsed = elapsed;
@@ -352,7 +394,8 @@ void FixFluidCouple::meet(double elapsed) {
   meeting.steps_done = update->ntimestep - update->firststep;
   meeting.steps_total = update->laststep - update->firststep;
   pack();
-  meeting.totals = totals();
+  add_totals(computed, meeting);
+  load_.add(meeting);
   const FluidReaction reaction = forces_->reaction();
   link::ParticleArrays particles;
   particles.count = atom->nlocal;
@@ -372,7 +415,8 @@ void FixFluidCouple::meet(double elapsed) {
     keep_particles();
     refuse(refusal.what());
   }
-  left_fluid_at_ = MPI_Wtime();
+  ahead_ = false;
+  leave_fluid();
 }
 
 void FixFluidCouple::grow_arrays(int rows) {

@@ -6,6 +6,7 @@
 #include "cluster/bodies.h"
 #include "fluid/fix_fluid_force.h"
 #include "link/fluid_peer.h"
+#include "link/load_sums.h"
 #include "link/socket_peer.h"
 
 #include <mpi.h>
@@ -67,7 +68,10 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   void keep_particles();
   void pack();
   void pack_extent(int i, double* extent);
-  link::DemTotals totals() const;
+  /// `computed`: seconds of this rank since the last meeting, without waiting.
+  void add_totals(double computed, link::Meeting& meeting) const;
+  void begin_interval();
+  void leave_fluid();
 
   std::string link_;
   std::string address_; ///< of link socket
@@ -75,6 +79,8 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   link::Patience patience_;
   int interval_ = 0;
   int countdown_ = 0;
+  bool overlap_ = false;
+  bool ahead_ = false; ///< with overlap: the fluid takes the step of the present interval
   bool agreed_ = false;
   bool met_ = false;
   int checkpoint_every_ = 0;     ///< meetings; 0: only when a signal asks to stop
@@ -94,6 +100,8 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   std::vector<double> volume_;
   std::vector<double> extent_; ///< packed rows of link::kExtentDoubles; empty where all particles are spheres
   double left_fluid_at_ = 0;   ///< wall-clock time when the last meeting ended [s]
+  double waited_before_ = 0;   ///< link::waiting_seconds() at that time
+  link::LoadSums load_;        ///< of the present run
   double pack_seconds_ = 0;
 };
 

@@ -50,6 +50,14 @@ struct DemTotals {
   double fastest = 0;                    ///< largest |v| [m/s]
 };
 
+/// How evenly the ranks of DEM were loaded since the last meeting.
+struct DemLoad {
+  std::int64_t ranks = 1;
+  std::int64_t most_particles = 0; ///< of any rank
+  double mean_seconds = 0;         ///< that a rank computed, without waiting for others; mean over the ranks [s]
+  double most_seconds = 0;         ///< of any rank [s]
+};
+
 /// One meeting.
 struct Meeting {
   unsigned needed = 0;          ///< fluid::Quantity bits asked for now: a screen drops some, and asks again
@@ -59,6 +67,7 @@ struct Meeting {
   std::int64_t steps_done = 0;  ///< DEM steps of the present run
   std::int64_t steps_total = 0; ///< its length
   DemTotals totals;
+  DemLoad load;
 };
 
 /// The fluid. All calls are collective over the ranks of DEM, and may throw Refusal (on every rank alike).
@@ -71,6 +80,9 @@ class FluidPeer {
   /// `particles`); those that `meeting.needed` does not name are null. Returns the signal that asks the fluid side to
   /// stop, or 0.
   virtual int meet(const Meeting& meeting, const ParticleArrays& particles, const fluid::FluidSamples& samples) = 0;
+  /// With DemTerms::overlap, after a meeting: DEM begins an interval, and so does the flow, with the particles and
+  /// impulses of that meeting; meet() then only exchanges. Returns at once where the fluid is another job.
+  virtual void advance() = 0;
   /// Writes the fluid's state of the last meeting such that it is on the disk on return, and returns where (for the
   /// user's eyes). The DEM side writes its own after that: a checkpoint of DEM's has one of the fluid's.
   virtual std::string checkpoint(const CheckpointMark& mark) = 0;

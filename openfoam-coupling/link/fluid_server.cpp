@@ -53,7 +53,8 @@ FluidServer::Command FluidServer::next_command() {
       command.meeting.pack_seconds += transport_seconds_;
     } else if (command.kind == wire::Kind::checkpoint && agreed_) {
       command.mark = wire::decode_checkpoint(message_.view());
-    } else if (command.kind != wire::Kind::run_ended && command.kind != wire::Kind::farewell) {
+    } else if (command.kind != wire::Kind::run_ended && command.kind != wire::Kind::farewell &&
+               !(command.kind == wire::Kind::advance && agreed_ && overlap_)) {
       throw Refusal("the DEM side spoke out of turn: install the same release of Eccentra on both sides");
     }
     wire::Bytes packed(sizeof command);
@@ -69,6 +70,7 @@ void FluidServer::answer_terms(FluidPeer& fluid, const Command& command) {
   const FluidTerms terms = fluid.agree(command.terms);
   offered_ = terms.offered;
   extents_ = command.terms.extents;
+  overlap_ = command.terms.overlap;
   agreed_ = true;
   on_root(ranks_, [&] {
     channel_->send(Channel::Message(wire::encode(terms)));
@@ -128,6 +130,8 @@ void FluidServer::serve(FluidPeer& fluid) {
         answer_meeting(fluid, command);
       else if (command.kind == wire::Kind::checkpoint)
         answer_checkpoint(fluid, command);
+      else if (command.kind == wire::Kind::advance)
+        fluid.advance();
       else
         fluid.run_ended();
     }

@@ -42,7 +42,7 @@ class FluidServer {
   std::vector<std::int32_t> cells_of_rank_; ///< on rank 0
   bool agreed_ = false;
   unsigned offered_ = 0; ///< quantities that the fluid's terms offered
-  bool extents_ = false;
+  bool extents_ = false, overlap_ = false;
   wire::Guests guests_;
   std::vector<std::byte> rows_;  ///< of the ranks that do not talk
   double transport_seconds_ = 0; ///< of the last meeting; of rank 0

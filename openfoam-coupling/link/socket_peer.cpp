@@ -99,6 +99,13 @@ int SocketPeer::meet(const Meeting& meeting, const ParticleArrays& particles, co
   return std::to_integer<int>(signal.at(0));
 }
 
+void SocketPeer::advance() {
+  on_root_or_leave([&] {
+    channel_->send(Channel::Message(wire::encode_bare(wire::Kind::advance)));
+    return wire::Bytes();
+  });
+}
+
 std::string SocketPeer::checkpoint(const CheckpointMark& mark) {
   const wire::Bytes place = on_root_or_leave([&] {
     channel_->send(Channel::Message(wire::encode(mark)));

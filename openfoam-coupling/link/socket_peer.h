@@ -27,6 +27,7 @@ class SocketPeer : public FluidPeer {
 
   FluidTerms agree(const DemTerms& dem) override;
   int meet(const Meeting& meeting, const ParticleArrays& particles, const fluid::FluidSamples& samples) override;
+  void advance() override;
   std::string checkpoint(const CheckpointMark& mark) override;
   void run_ended() override;
   /// Tells the fluid side in one sentence why this side ends here. Not collective.

@@ -10,7 +10,7 @@
 namespace eccentra::link {
 
 /// Raised whenever the layout or the meaning of anything that crosses the link changes.
-constexpr std::uint32_t kProtocolVersion = 3;
+constexpr std::uint32_t kProtocolVersion = 4;
 
 /// A box aligned with the axes [m] and the directions in which it repeats.
 struct Extents {
@@ -41,6 +41,7 @@ struct DemTerms {
   std::int64_t particles = 0;    ///< in the whole domain, now
   Extents domain;                ///< of the simulation box
   unsigned needed = 0;           ///< fluid::Quantity bits that the closures ask for at the beginning of the run
+  bool overlap = false;          ///< the fluid takes its step while DEM runs the same interval
   bool extents = false;          ///< particles come with their extent (clusters), not with their volume alone
   double fluid_density = 0.0;    ///< that the closures were told [kg/m3]; 0: none was
   FlowCurve rheology;            ///< that the closures were told

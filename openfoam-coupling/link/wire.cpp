@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Encodes and decodes the messages of the socket link.
-#include "link/wire.h"
+#include "link/wire_records.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -23,77 +22,14 @@ constexpr std::size_t kParticleDoubles = 3 + 1 + 3 + 1;
 constexpr std::size_t kVolumeAt = 3;
 constexpr std::uint64_t kExponent = 0x7ff0000000000000; ///< of a binary64
 
-[[noreturn]] void broken(const std::string& what) {
-  throw Refusal("a message of the other side " + what +
-                ": it is broken or not Eccentra's, check who uses the address and install the same release on both "
-                "sides");
-}
-
-/// Appends plain values.
-class Writer {
- public:
-  explicit Writer(std::byte* to) : to_(to) {}
-  template <class Value> void put(Value value) { raw(&value, sizeof value); }
-  void raw(const void* from, std::size_t bytes) {
-    if (bytes > 0)
-      std::memcpy(to_, from, bytes);
-    to_ += bytes;
-  }
-
- private:
-  std::byte* to_;
-};
-
-/// Takes plain values off what is left; never beyond it.
-class Reader {
- public:
-  explicit Reader(View view) : view_(view) {}
-  std::size_t left() const { return view_.size; }
-  const std::byte* here() const { return view_.data; }
-  template <class Value> Value take() {
-    if (view_.size < sizeof(Value))
-      broken("ends too early");
-    Value value;
-    std::memcpy(&value, view_.data, sizeof value);
-    view_.data += sizeof value;
-    view_.size -= sizeof value;
-    return value;
-  }
-  double number() {
-    const double value = take<double>();
-    if (!std::isfinite(value))
-      broken("holds a value that is no number");
-    return value;
-  }
-  bool yes_or_no() {
-    const auto value = take<std::uint32_t>();
-    if (value > 1)
-      broken("holds neither yes nor no where one of them belongs");
-    return value == 1;
-  }
-  unsigned quantities() {
-    const auto bits = take<std::uint32_t>();
-    if (bits & ~kKnownQuantities)
-      broken("names fluid quantities that do not exist");
-    return bits;
-  }
-  void end() const {
-    if (view_.size != 0)
-      broken("is longer than its contents");
-  }
-
- private:
-  View view_;
-};
-
 void write_header(std::byte* message, Kind kind, std::size_t body) {
   Writer out(message);
   out.raw(kMagic, sizeof kMagic);
-  out.put(kByteOrder);
-  out.put(kProtocolVersion);
-  out.put(static_cast<std::uint32_t>(kind));
-  out.put(static_cast<std::uint32_t>(sizeof(double)));
-  out.put(static_cast<std::uint64_t>(body));
+  out.plain(kByteOrder);
+  out.plain(kProtocolVersion);
+  out.plain(static_cast<std::uint32_t>(kind));
+  out.plain(static_cast<std::uint32_t>(sizeof(double)));
+  out.plain(static_cast<std::uint64_t>(body));
 }
 
 struct Header {
@@ -114,7 +50,7 @@ Header read_header(Reader& in) {
   Header header;
   header.version = in.take<std::uint32_t>();
   const auto kind = in.take<std::uint32_t>();
-  if (kind < static_cast<std::uint32_t>(Kind::dem_terms) || kind > static_cast<std::uint32_t>(Kind::checkpointed))
+  if (kind < static_cast<std::uint32_t>(Kind::dem_terms) || kind > static_cast<std::uint32_t>(kLastKind))
     broken("is of an unknown kind");
   header.kind = static_cast<Kind>(kind);
   if (in.take<std::uint32_t>() != sizeof(double))
@@ -140,46 +76,10 @@ Bytes with_header(Kind kind, std::size_t body) {
   return message;
 }
 
-void put_extents(Writer& out, const Extents& extents) {
-  out.raw(extents.low, sizeof extents.low);
-  out.raw(extents.high, sizeof extents.high);
-  for (const bool periodic : extents.periodic)
-    out.put(std::uint32_t(periodic));
-  out.put(std::uint32_t(0));
-}
-
-Extents take_extents(Reader& in) {
-  Extents extents;
-  for (double& x : extents.low)
-    x = in.number();
-  for (double& x : extents.high)
-    x = in.number();
-  for (bool& periodic : extents.periodic)
-    periodic = in.yes_or_no();
-  in.take<std::uint32_t>();
-  return extents;
-}
-
-void put_flow_curve(Writer& out, const FlowCurve& law) {
-  out.put(law.yield_stress);
-  out.put(law.consistency);
-  out.put(law.index);
-}
-
-FlowCurve take_flow_curve(Reader& in) {
-  FlowCurve law;
-  law.yield_stress = in.number();
-  law.consistency = in.number();
-  law.index = in.number();
-  return law;
-}
-
-constexpr std::size_t kExtentsBytes = 6 * 8 + 4 * 4;
-constexpr std::size_t kFlowCurveBytes = 3 * 8;
-constexpr std::size_t kMarkBytes = 2 * 8;
-constexpr std::size_t kDemTermsBytes =
-    8 + 2 * 8 + 2 * 8 + kExtentsBytes + 2 * 4 + 8 + kFlowCurveBytes + 3 * 8 + kMarkBytes;
-constexpr std::size_t kFluidTermsBytes = 8 + 2 * 8 + kExtentsBytes + 2 * 4 + 8 + kFlowCurveBytes + 3 * 8 + 8;
+constexpr std::size_t kDemTermsBytes = bytes_of<DemTerms>(dem_terms_fields);
+constexpr std::size_t kFluidTermsBytes = bytes_of<FluidTerms>(fluid_terms_fields);
+constexpr std::size_t kMarkBytes = bytes_of<CheckpointMark>(mark_fields);
+static_assert(kMeetingBytes == sizeof(std::uint64_t) + sizeof(std::uint32_t) + bytes_of<Meeting>(meeting_fields));
 /// Largest signal number of any system.
 constexpr std::uint32_t kMostSignal = 64;
 
@@ -233,41 +133,14 @@ std::size_t most_bytes() {
 Bytes encode(const DemTerms& terms) {
   Bytes message = with_header(Kind::dem_terms, kDemTermsBytes);
   Writer out(message.data() + kHeaderBytes);
-  out.put(terms.protocol);
-  out.put(std::uint32_t(terms.extents));
-  out.put(terms.length_unit);
-  out.put(terms.time_step);
-  out.put(terms.interval);
-  out.put(terms.particles);
-  put_extents(out, terms.domain);
-  out.put(std::uint32_t(terms.needed));
-  out.put(std::uint32_t(0));
-  out.put(terms.fluid_density);
-  put_flow_curve(out, terms.rheology);
-  out.raw(terms.gravity, sizeof terms.gravity);
-  out.put(terms.resumes.step);
-  out.put(terms.resumes.id);
+  dem_terms_fields(out, terms);
   return message;
 }
 
 DemTerms decode_dem_terms(View message) {
   Reader in = body_of(message, Kind::dem_terms);
   DemTerms terms;
-  terms.protocol = in.take<std::uint32_t>();
-  terms.extents = in.yes_or_no();
-  terms.length_unit = in.number();
-  terms.time_step = in.number();
-  terms.interval = in.take<std::int64_t>();
-  terms.particles = in.take<std::int64_t>();
-  terms.domain = take_extents(in);
-  terms.needed = in.quantities();
-  in.take<std::uint32_t>();
-  terms.fluid_density = in.number();
-  terms.rheology = take_flow_curve(in);
-  for (double& g : terms.gravity)
-    g = in.number();
-  terms.resumes.step = in.take<std::int64_t>();
-  terms.resumes.id = in.take<std::uint64_t>();
+  dem_terms_fields(in, terms);
   in.end();
   if (terms.particles < 0 || std::uint64_t(terms.particles) > kMostParticles)
     throw Refusal("the DEM side has " + std::to_string(terms.particles) +
@@ -278,35 +151,14 @@ DemTerms decode_dem_terms(View message) {
 Bytes encode(const FluidTerms& terms) {
   Bytes message = with_header(Kind::fluid_terms, kFluidTermsBytes);
   Writer out(message.data() + kHeaderBytes);
-  out.put(terms.protocol);
-  out.put(std::uint32_t(terms.has_gravity));
-  out.put(terms.length_unit);
-  out.put(terms.time_step);
-  put_extents(out, terms.domain);
-  out.put(std::uint32_t(terms.offered));
-  out.put(std::uint32_t(0));
-  out.put(terms.fluid_density);
-  put_flow_curve(out, terms.rheology);
-  out.raw(terms.gravity, sizeof terms.gravity);
-  out.put(terms.layout);
+  fluid_terms_fields(out, terms);
   return message;
 }
 
 FluidTerms decode_fluid_terms(View message) {
   Reader in = body_of(message, Kind::fluid_terms);
   FluidTerms terms;
-  terms.protocol = in.take<std::uint32_t>();
-  terms.has_gravity = in.yes_or_no();
-  terms.length_unit = in.number();
-  terms.time_step = in.number();
-  terms.domain = take_extents(in);
-  terms.offered = in.quantities();
-  in.take<std::uint32_t>();
-  terms.fluid_density = in.number();
-  terms.rheology = take_flow_curve(in);
-  for (double& g : terms.gravity)
-    g = in.number();
-  terms.layout = in.take<std::uint64_t>();
+  fluid_terms_fields(in, terms);
   in.end();
   return terms;
 }
@@ -314,16 +166,14 @@ FluidTerms decode_fluid_terms(View message) {
 Bytes encode(const CheckpointMark& mark) {
   Bytes message = with_header(Kind::checkpoint, kMarkBytes);
   Writer out(message.data() + kHeaderBytes);
-  out.put(mark.step);
-  out.put(mark.id);
+  mark_fields(out, mark);
   return message;
 }
 
 CheckpointMark decode_checkpoint(View message) {
   Reader in = body_of(message, Kind::checkpoint);
   CheckpointMark mark;
-  mark.step = in.take<std::int64_t>();
-  mark.id = in.take<std::uint64_t>();
+  mark_fields(in, mark);
   in.end();
   if (mark.step < 0)
     broken("speaks of a checkpoint before the beginning");
@@ -380,7 +230,7 @@ bool is_ours(View message) {
 Kind kind_of(View message) {
   Reader in(message);
   const Kind kind = read_header(in).kind;
-  if (kind == Kind::run_ended || kind == Kind::farewell)
+  if (kind == Kind::run_ended || kind == Kind::farewell || kind == Kind::advance)
     in.end();
   return kind;
 }
@@ -388,44 +238,25 @@ Kind kind_of(View message) {
 void write_meeting_head(std::byte* message, const Meeting& meeting, std::size_t count, bool extents) {
   write_header(message, Kind::meeting, kMeetingBytes + count * particle_row_bytes(extents));
   Writer out(message + kHeaderBytes);
-  out.put(std::uint64_t(count));
-  out.put(std::uint32_t(extents));
-  out.put(std::uint32_t(meeting.needed));
-  out.put(meeting.elapsed);
-  out.put(meeting.dem_seconds);
-  out.put(meeting.pack_seconds);
-  out.put(meeting.steps_done);
-  out.put(meeting.steps_total);
-  const DemTotals& totals = meeting.totals;
-  out.put(totals.particles);
-  out.put(totals.inserted);
-  for (const double value : {totals.inserted_mass, totals.volume, totals.mass, totals.fastest})
-    out.put(value);
-  for (const double(*vector)[3] : {&totals.impulse, &totals.momentum, &totals.volume_position, &totals.volume_velocity})
-    out.raw(*vector, sizeof *vector);
+  out.plain(std::uint64_t(count));
+  out.yes_or_no(extents);
+  meeting_fields(out, meeting);
 }
 
 Rows decode_meeting(View message, bool extents, Meeting& meeting) {
   Reader in = body_of(message, Kind::meeting);
   Rows rows;
   rows.count = checked_count(in);
-  if (in.yes_or_no() != extents)
+  bool with_extents = false;
+  in.yes_or_no(with_extents);
+  if (with_extents != extents)
     broken("has rows of another length than the terms said");
-  meeting.needed = in.quantities();
-  for (double* value : {&meeting.elapsed, &meeting.dem_seconds, &meeting.pack_seconds})
-    *value = in.number();
-  meeting.steps_done = in.take<std::int64_t>();
-  meeting.steps_total = in.take<std::int64_t>();
-  DemTotals& totals = meeting.totals;
-  totals.particles = in.take<std::int64_t>();
-  totals.inserted = in.take<std::int64_t>();
-  for (double* value : {&totals.inserted_mass, &totals.volume, &totals.mass, &totals.fastest})
-    *value = in.number();
-  for (double(*vector)[3] : {&totals.impulse, &totals.momentum, &totals.volume_position, &totals.volume_velocity})
-    for (double& x : *vector)
-      x = in.number();
+  meeting_fields(in, meeting);
+  const DemTotals& totals = meeting.totals;
   if (meeting.elapsed < 0 || totals.particles < 0 || std::uint64_t(totals.particles) != rows.count)
     broken("contradicts itself about time or particles");
+  if (meeting.load.ranks < 1)
+    broken("comes from no rank");
   const std::size_t row_bytes = particle_row_bytes(extents);
   if (in.left() != rows.count * row_bytes)
     broken("does not hold the particles that it states");
@@ -444,16 +275,17 @@ Rows decode_meeting(View message, bool extents, Meeting& meeting) {
 void write_samples_head(std::byte* message, std::size_t count, unsigned quantities, int stop_signal) {
   write_header(message, Kind::samples, kSamplesBytes + count * samples_row_bytes(quantities));
   Writer out(message + kHeaderBytes);
-  out.put(std::uint64_t(count));
-  out.put(std::uint32_t(quantities));
-  out.put(std::uint32_t(stop_signal));
+  out.plain(std::uint64_t(count));
+  out.quantities(quantities);
+  out.plain(std::uint32_t(stop_signal));
 }
 
 Rows decode_samples(View message, std::size_t count, unsigned quantities) {
   Reader in = body_of(message, Kind::samples);
   Rows rows;
   rows.count = checked_count(in);
-  const unsigned sent = in.quantities();
+  unsigned sent = 0;
+  in.quantities(sent);
   const auto signal = in.take<std::uint32_t>();
   if (signal > kMostSignal)
     broken("names a signal that does not exist");
@@ -486,12 +318,12 @@ void pack_particles(const ParticleArrays& particles, bool extents, std::byte* ro
   Writer out(rows);
   for (std::size_t i = 0; i < particles.count; ++i) {
     out.raw(particles.position[i], sizeof particles.position[i]);
-    out.put(particles.volume[i]);
+    out.plain(particles.volume[i]);
     out.raw(particles.impulse[i], sizeof particles.impulse[i]);
-    out.put(particles.drag_coefficient[i]);
+    out.plain(particles.drag_coefficient[i]);
     if (extents)
       out.raw(particles.extent[i], sizeof particles.extent[i]);
-    out.put(particles.ticket[i]);
+    out.plain(particles.ticket[i]);
   }
 }
 
@@ -561,7 +393,7 @@ void Guests::pack_samples(std::byte* rows) {
     for (int bit = 0; bit < kQuantities; ++bit)
       if (quantities_ & (1u << bit))
         out.raw(arrays[bit]->data() + i * kDoublesOf[bit], kDoublesOf[bit] * sizeof(double));
-    out.put(ticket_[i]);
+    out.plain(ticket_[i]);
   }
 }
 

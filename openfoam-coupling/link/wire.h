@@ -14,21 +14,23 @@
 namespace eccentra::link::wire {
 
 enum class Kind : std::uint32_t {
-  dem_terms = 1,   ///< DEM to fluid: DemTerms
-  fluid_terms = 2, ///< fluid to DEM: FluidTerms
-  refusal = 3,     ///< either way: one sentence; the sender goes on no longer. Readable in every version
-  meeting = 4,     ///< DEM to fluid: Meeting and one row per particle
-  samples = 5,     ///< fluid to DEM: one row per particle, in the order received
-  run_ended = 6,   ///< DEM to fluid: this run of the script has ended as intended
-  farewell = 7,    ///< DEM to fluid: the script has ended as intended
-  checkpoint = 8,  ///< DEM to fluid: write the state of the last meeting under this mark
-  checkpointed = 9 ///< fluid to DEM: it is on the disk, and where
+  dem_terms = 1,    ///< DEM to fluid: DemTerms
+  fluid_terms = 2,  ///< fluid to DEM: FluidTerms
+  refusal = 3,      ///< either way: one sentence; the sender goes on no longer. Readable in every version
+  meeting = 4,      ///< DEM to fluid: Meeting and one row per particle
+  samples = 5,      ///< fluid to DEM: one row per particle, in the order received
+  run_ended = 6,    ///< DEM to fluid: this run of the script has ended as intended
+  farewell = 7,     ///< DEM to fluid: the script has ended as intended
+  checkpoint = 8,   ///< DEM to fluid: write the state of the last meeting under this mark
+  checkpointed = 9, ///< fluid to DEM: it is on the disk, and where
+  advance = 10      ///< DEM to fluid, with overlap: DEM begins an interval, and so shall the fluid
 };
+constexpr Kind kLastKind = Kind::advance;
 
 /// Bytes before the body of every message.
 constexpr std::size_t kHeaderBytes = 32;
 /// Bytes between the header and the rows of a meeting.
-constexpr std::size_t kMeetingBytes = 200;
+constexpr std::size_t kMeetingBytes = 232;
 /// Bytes between the header and the rows of the samples.
 constexpr std::size_t kSamplesBytes = 16;
 /// No message speaks of more particles; rows stay below what MPI counts in one call.
@@ -59,7 +61,7 @@ Bytes encode(const FluidTerms& terms);
 Bytes encode_refusal(const std::string& sentence);
 Bytes encode(const CheckpointMark& mark);
 Bytes encode_checkpointed(const std::string& place);
-Bytes encode_bare(Kind kind); ///< run_ended or farewell
+Bytes encode_bare(Kind kind); ///< run_ended, farewell or advance
 /// `message` has room for kHeaderBytes + kMeetingBytes; `count` rows follow them.
 void write_meeting_head(std::byte* message, const Meeting& meeting, std::size_t count, bool extents);
 /// `message` has room for kHeaderBytes + kSamplesBytes; `count` rows follow them. `stop_signal`: the one that asks the

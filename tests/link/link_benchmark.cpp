@@ -40,6 +40,7 @@ class PromptFluid : public link::FluidPeer {
       samples.fraction[i] = particles.position[i][0];
     return 0;
   }
+  void advance() override {}
   std::string checkpoint(const link::CheckpointMark&) override { return ""; }
   void run_ended() override {}
 };

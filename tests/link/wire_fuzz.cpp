@@ -8,7 +8,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace eccentra::link;
-  constexpr unsigned kKinds = static_cast<unsigned>(wire::Kind::farewell);
+  constexpr unsigned kKinds = static_cast<unsigned>(wire::kLastKind);
   constexpr std::size_t kLengthAt = wire::kHeaderBytes - sizeof(std::uint64_t);
   (void)eccentra::test::accepted(reinterpret_cast<const std::byte*>(data), size);
   if (size == 0)

@@ -45,6 +45,7 @@ inline link::Meeting some_meeting() {
   meeting.totals.particles = kRows;
   meeting.totals.volume_velocity[2] = 3.25;
   meeting.totals.fastest = 0.75;
+  meeting.load = {4, 2, 0.25, 0.5};
   return meeting;
 }
 
@@ -95,6 +96,7 @@ inline std::vector<link::wire::Bytes> valid_messages() {
           samples_message(),
           encode_bare(Kind::run_ended),
           encode_bare(Kind::farewell),
+          encode_bare(Kind::advance),
           encode(link::CheckpointMark{640, 7}),
           encode_checkpointed("/case/checkpoints/fluid-640.complete")};
 }

@@ -48,6 +48,7 @@ TEST(Wire, TermsArriveAsSent) {
   dem.particles = 1212;
   dem.needed = kAsked;
   dem.extents = true;
+  dem.overlap = true;
   dem.fluid_density = 1030;
   dem.gravity[1] = -9.81;
   dem.rheology = {1, 0.28, 0.65};
@@ -63,6 +64,7 @@ TEST(Wire, TermsArriveAsSent) {
   EXPECT_EQ(got.particles, 1212);
   EXPECT_EQ(got.needed, kAsked);
   EXPECT_TRUE(got.extents);
+  EXPECT_TRUE(got.overlap);
   EXPECT_EQ(got.fluid_density, 1030);
   EXPECT_EQ(got.gravity[1], -9.81);
   EXPECT_EQ(got.rheology.yield_stress, 1);
@@ -105,6 +107,10 @@ TEST(Wire, MeetingArrivesAsSent) {
     EXPECT_EQ(meeting.steps_total, 80);
     EXPECT_EQ(meeting.totals.volume_velocity[2], 3.25);
     EXPECT_EQ(meeting.totals.fastest, 0.75);
+    EXPECT_EQ(meeting.load.ranks, 4);
+    EXPECT_EQ(meeting.load.most_particles, 2);
+    EXPECT_EQ(meeting.load.mean_seconds, 0.25);
+    EXPECT_EQ(meeting.load.most_seconds, 0.5);
     wire::Guests guests;
     guests.load(rows, extents, kAsked);
     const ParticleArrays got = guests.particles();

@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How long this rank has waited for other ranks; what is left of its wall-clock time it has computed.
+#pragma once
+
+namespace eccentra::link {
+
+/// Wall-clock seconds that this process has spent in calls of MPI that wait, since its start. Only ever grows. Counted
+/// by liggghts-plugins/host/mpi_clock.cpp, which stands in front of the MPI library wherever libeccentra is loaded.
+double& waiting_seconds();
+
+} // namespace eccentra::link
