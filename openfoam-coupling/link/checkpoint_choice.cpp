@@ -47,18 +47,12 @@ bool fluid_record_is_whole(const Manifest& dem, std::string& why) {
     why = "'" + place.string() + "' belongs to another run";
     return false;
   }
-  // The fluid's ranks have their parts below the folder of the case.
-  const fs::path here = place.parent_path();
-  const fs::path below = here.parent_path();
-  const std::string name = place.stem();
+  const fs::path parts = place.parent_path() / place.stem();
   std::size_t rank = 0;
-  const bool parallel = record->note("ranks") != "1";
   for (const auto& [word, checksum] : record->notes) {
     if (word != "rank")
       continue;
-    const fs::path part =
-        parallel ? below / ("processor" + std::to_string(rank)) / here.filename() / name : here / name;
-    ++rank;
+    const fs::path part = parts / ("rank" + std::to_string(rank++));
     const std::optional<Manifest> manifest = check_folder(part, &why);
     if (!manifest)
       return false;

@@ -8,6 +8,7 @@
 #include "hostGuards.H"
 #include "inputError.H"
 #include "statedTerms.H"
+#include "toldForces.H"
 
 #include "link/fluid_server.h"
 #include "link/stop_signal.h"
@@ -77,6 +78,8 @@ coupledRun::coupledRun(fvMesh& mesh, bool verbose, bool resume)
     : mesh_(mesh), time_(const_cast<Time&>(mesh.time())), properties_(propertiesFile(mesh.time())), verbose_(verbose),
       resume_(resume), traps_(fegetexcept()), semiImplicit_(readMomentum(properties_)),
       method_(readVoidFraction(properties_)), timeStep_(time_), interval_(time_.controlDict().get<scalar>("deltaT")) {}
+
+coupledRun::~coupledRun() = default;
 
 bool coupledRun::wanted(const Time& time) {
   return isFile(time.globalPath() / time.constant() / "couplingProperties");

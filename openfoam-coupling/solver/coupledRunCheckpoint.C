@@ -25,12 +25,22 @@ link::CheckpointChoice coupledRun::newestCheckpoint() const {
   return choice;
 }
 
+std::vector<scalarField*> coupledRun::cellValues() {
+  std::vector<scalarField*> values = exchange_->memory();
+  if (dem_.overlap)
+    values.insert(values.end(), {&overlap_.after, &solid_});
+  return values;
+}
+
 void coupledRun::resumeFrom(const link::CheckpointMark& mark) {
   std::string why;
   if (!fluidCheckpoint::whole(mesh_, mark, why))
     throw link::Refusal("the DEM side goes on from checkpoint " + std::to_string(mark.step) +
                         " but the fluid cannot: " + why + "; take another checkpoint for both, or begin anew");
   const dictionary facts = fluidCheckpoint::facts(mesh_, mark.step);
+  if (facts.get<bool>("overlap") != dem_.overlap)
+    throw link::Refusal("checkpoint " + std::to_string(mark.step) + " was written with overlap " +
+                        (dem_.overlap ? "no" : "yes") + " and fix fluid/couple has the other: give it the same");
   // A folder of that time may have told another step, in fewer digits; only a step makes it the last one.
   time_.setDeltaT(facts.get<scalar>("lastStep"), false);
   ++time_;
@@ -40,7 +50,7 @@ void coupledRun::resumeFrom(const link::CheckpointMark& mark) {
   settings.length = facts.get<scalar>("length");
   settings.diffusionSteps = facts.get<label>("diffusionSteps");
   makeExchange(settings);
-  fluidCheckpoint::readFields(*flow_, *exchange_, mark.step);
+  fluidCheckpoint::readFields(*flow_, dem_.overlap, cellValues(), mark.step);
   flow_->resume(facts.get<scalar>("drive"));
   requests_.resume(unsigned(facts.get<label>("asked")));
   const dictionary report = facts.subDict("report");
@@ -57,8 +67,9 @@ std::string coupledRun::checkpoint(const link::CheckpointMark& mark) {
   facts.add("diffusionSteps", label(exchange_->settings().diffusionSteps));
   facts.add("drive", flow_->drive().G());
   facts.add("asked", label(requests_.asked()));
+  facts.add("overlap", dem_.overlap);
   facts.add("report", report_->state());
-  return fluidCheckpoint::write(*flow_, *exchange_, mark, facts);
+  return fluidCheckpoint::write(*flow_, dem_.overlap, cellValues(), mark, facts);
 }
 
 } // namespace eccentra

@@ -6,13 +6,13 @@
 #include "fractionShare.H"
 #include "hostGuards.H"
 #include "inputError.H"
+#include "stopwatch.H"
 #include "toldForces.H"
 
 #include "link/stop_signal.h"
 
 #include "Time.H"
 
-#include <chrono>
 #include <cmath>
 
 namespace eccentra {
@@ -26,19 +26,6 @@ constexpr double kDiffusionDiameters = 3.0;
 constexpr double kGaussianDiameters = 1.0;
 /// One implicit step leaves a cusp that a particle feels while it crosses cells.
 constexpr label kDiffusionSteps = 2;
-
-class stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 } // namespace
 
@@ -115,11 +102,15 @@ void coupledRun::begin(const link::Meeting& meeting) {
   report_ = std::make_unique<couplingReport>(mesh_, dem_, reportEvery());
 }
 
+void coupledRun::setStressShare() {
+  flow_->setStressShare(requests_.asked() & fluid::kStressDivergence ? averagedFlow::stressShare::fraction
+                                                                     : averagedFlow::stressShare::full);
+}
+
 // The screen of fix fluid/force may drop quantities, and ask for them again.
 void coupledRun::follow(const link::Meeting& meeting) {
   // Over the time that has passed, particles received V div tau if they were told it at its beginning.
-  flow_->setStressShare(requests_.asked() & fluid::kStressDivergence ? averagedFlow::stressShare::fraction
-                                                                     : averagedFlow::stressShare::full);
+  setStressShare();
   if (requests_.changes(meeting))
     fluidRequests::print(meeting, dem_.extents, time_.value(), returnReduce(mesh_.nCells(), sumOp<label>()),
                          exchange_->settings().length);
@@ -128,8 +119,9 @@ void coupledRun::follow(const link::Meeting& meeting) {
 
 // Returns the fluid fraction that this interval leads to.
 scalarField coupledRun::receive(const link::Meeting& meeting, const link::ParticleArrays& particles, bool start) {
-  scalarField solid, drag;
+  scalarField drag;
   vectorField force;
+  scalarField& solid = solid_;
   scalarField* const wantedDrag = semiImplicit_ ? &drag : nullptr;
   exchange_->deposit(particles, meeting.elapsed, solid, &force, wantedDrag);
   flow_->particleForce().primitiveFieldRef() = force / flow_->rho();
@@ -152,7 +144,7 @@ void coupledRun::setFraction(const scalarField& before, const scalarField& after
 }
 
 // From the last meeting to this one; `left` after the first step [s]. Returns whether fields are due to be written.
-bool coupledRun::advance(scalar left, const scalarField& before, const scalarField& after, toldForces& told) {
+bool coupledRun::takeSteps(scalar left, const scalarField& before, const scalarField& after, toldForces& told) {
   const quiet silence(verbose_);
   for (bool due = false;;) {
     flow_->advance();
@@ -170,14 +162,14 @@ int coupledRun::meet(const link::Meeting& meeting, const link::ParticleArrays& p
                      const fluid::FluidSamples& samples) {
   checkFinite(meeting);
   const trapping on(traps_);
+  if (dem_.overlap)
+    return meetAhead(meeting, particles, samples);
   const bool first = !exchange_;
   if (first)
     begin(meeting);
   follow(meeting);
   stopwatch watch;
-  PartSeconds seconds;
-  seconds.dem = meeting.dem_seconds;
-  seconds.link = meeting.pack_seconds;
+  PartSeconds seconds(meeting);
   const bool advances = meeting.elapsed > 0;
   const scalar left = advances ? timeStep_.partOf(interval_, flow_->CourantNo()) : 0;
   if (advances)
@@ -192,7 +184,7 @@ int coupledRun::meet(const link::Meeting& meeting, const link::ParticleArrays& p
   seconds.exchange = watch.lap();
 
   toldForces told(*flow_, requests_.asked());
-  const bool due = advances && advance(left, before, after, told);
+  const bool due = advances && takeSteps(left, before, after, told);
   seconds.fluid = watch.lap();
   checkFinite(meeting);
 
@@ -202,7 +194,7 @@ int coupledRun::meet(const link::Meeting& meeting, const link::ParticleArrays& p
   told.complete(flow_->alpha(), time_.deltaTValue() / interval_, fields);
   exchange_->sample(fields, particles, samples);
   seconds.exchange += watch.lap();
-  report_->add(*flow_, *exchange_, meeting, seconds);
+  report_->add(*flow_, *exchange_, meeting, seconds, Zero);
   if (due)
     time_.writeNow();
   return returnReduce(label(link::stop_signal()), maxOp<label>());

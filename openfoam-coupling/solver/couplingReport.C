@@ -39,6 +39,20 @@ vector vectorOf(const double* v) {
 
 } // namespace
 
+PartSeconds::PartSeconds(const link::Meeting& meeting) {
+  dem = {meeting.dem_seconds, meeting.dem_seconds - meeting.load.mean_seconds};
+  link.wall = meeting.pack_seconds;
+}
+
+PartSeconds& PartSeconds::operator+=(const PartSeconds& more) {
+  dem += more.dem;
+  fluid += more.fluid;
+  exchange += more.exchange;
+  link += more.link;
+  together += more.together;
+  return *this;
+}
+
 couplingReport::couplingReport(const fvMesh& mesh, const link::DemTerms& dem, int every, const dictionary* earlier)
     : mesh_(mesh), every_(every), interval_(dem.time_step * dem.interval), started_(std::chrono::steady_clock::now()) {
   const vector gravity(vectorOf(dem.gravity));
@@ -54,8 +68,8 @@ couplingReport::couplingReport(const fvMesh& mesh, const link::DemTerms& dem, in
   if (earlier) {
     meetings_ = earlier->get<label>("meetings");
     initially_ = std::llround(earlier->get<scalar>("initially"));
-    total_ = {earlier->get<scalar>("dem"), earlier->get<scalar>("fluid"), earlier->get<scalar>("exchange"),
-              earlier->get<scalar>("link")};
+    before_ = {earlier->get<scalar>("dem"), earlier->get<scalar>("fluid"), earlier->get<scalar>("exchange"),
+               earlier->get<scalar>("link")};
   }
   if (Pstream::master())
     openTable(earlier);
@@ -84,14 +98,20 @@ void couplingReport::openTable(const dictionary* earlier) {
   csv_->precision(13);
 }
 
+std::array<double, 4> couplingReport::parts() const {
+  return {before_[0] + total_.dem.wall, before_[1] + total_.fluid.wall, before_[2] + total_.exchange.wall,
+          before_[3] + total_.link.wall};
+}
+
 dictionary couplingReport::state() const {
   dictionary state;
   state.add("meetings", label(meetings_));
   state.add("initially", scalar(initially_));
-  state.add("dem", total_.dem);
-  state.add("fluid", total_.fluid);
-  state.add("exchange", total_.exchange);
-  state.add("link", total_.link);
+  const std::array<double, 4> parts = this->parts();
+  state.add("dem", parts[0]);
+  state.add("fluid", parts[1]);
+  state.add("exchange", parts[2]);
+  state.add("link", parts[3]);
   state.add("tableBytes", csv_ ? scalar(csv_->tellp()) : 0.0);
   return state;
 }
@@ -139,18 +159,17 @@ couplingReport::Bed couplingReport::bed(const volScalarField& alpha) const {
 }
 
 void couplingReport::add(averagedFlow& flow, const exchange::particleExchange& exchange, const link::Meeting& meeting,
-                         const PartSeconds& seconds) {
-  total_.dem += seconds.dem;
-  total_.fluid += seconds.fluid;
-  total_.exchange += seconds.exchange;
-  total_.link += seconds.link;
+                         const PartSeconds& seconds, const vector& onItsWay) {
+  total_ += seconds;
+  demLoad_.add(meeting);
+  points_ += double(exchange.present().here().size());
   const bool last = meeting.steps_total > 0 && meeting.steps_done >= meeting.steps_total;
   if (meetings_++ % every_ == 0 || last)
-    write(flow, exchange, meeting);
+    write(flow, exchange, meeting, onItsWay);
 }
 
-void couplingReport::write(averagedFlow& flow, const exchange::particleExchange& exchange,
-                           const link::Meeting& meeting) {
+void couplingReport::write(averagedFlow& flow, const exchange::particleExchange& exchange, const link::Meeting& meeting,
+                           const vector& onItsWay) {
   const exchange::ExchangeBalance& balance = exchange.balance();
   const link::DemTotals& totals = meeting.totals;
   const Bed bed = this->bed(flow.alpha());
@@ -163,7 +182,7 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
                      " is no number; reduce deltaT and the DEM time step together, or every");
   const double courant = flow.CourantNo();
   const double continuity = flow.continuityError();
-  const vector momentum(totalMomentum(flow, exchange, meeting));
+  const vector momentum(totalMomentum(flow, exchange, meeting) + onItsWay);
   const double fastestFluid = gMax(mag(flow.U().primitiveField())());
   const double globalContinuity = flow.globalContinuityError();
   if (initially_ < 0)
@@ -176,7 +195,7 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
   const double impulseError = relative(difference(balance.meshImpulse, balance.particleImpulse), balance.impulseScale);
   const double pressureError =
       relative(difference(balance.meshPressureForce, balance.particlePressureForce), balance.pressureForceScale);
-  std::array<double, 4> parts = {total_.dem, total_.fluid, total_.exchange, total_.link};
+  std::array<double, 4> parts = this->parts();
   for (double& part : parts)
     part = returnReduce(part, sumOp<scalar>()) / Pstream::nProcs();
   if (!balance.fits)
@@ -209,19 +228,44 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
 void couplingReport::finish() const {
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   const auto mean = [](double part) { return returnReduce(part, sumOp<scalar>()) / Pstream::nProcs(); };
-  const double dem = mean(total_.dem), fluid = mean(total_.fluid), exchange = mean(total_.exchange),
-               link = mean(total_.link);
+  const auto line = [&](const char* name, const Seconds& part) {
+    const double wall = mean(part.wall), waited = mean(part.waited);
+    if (Pstream::master())
+      std::printf("  %-10s %9.2f s %5.1f %%   of these waiting for other ranks %5.1f %%\n", name, wall,
+                  100 * wall / elapsed, wall > 0 ? 100 * waited / wall : 0.0);
+    return wall;
+  };
+  if (Pstream::master())
+    std::printf("cost by part, mean over %d rank(s)\n", Pstream::nProcs());
+  const double dem = line("DEM", total_.dem), fluid = line("fluid", total_.fluid);
+  const double exchange = line("exchange", total_.exchange), link = line("link", total_.link);
+  const double together = mean(total_.together);
+  if (Pstream::master()) {
+    if (together > 0)
+      std::printf("  %-10s %9.2f s %5.1f %%   DEM and fluid at the same time\n", "both", together,
+                  100 * together / elapsed);
+    const double rest = elapsed - (together > 0 ? together : dem + fluid) - exchange - link;
+    std::printf("  %-10s %9.2f s %5.1f %%\n", "rest", rest, 100 * rest / elapsed);
+  }
+  printLoad();
+}
+
+// What a rank computes besides waiting tells how even the division is.
+void couplingReport::printLoad() const {
+  const auto uneven = [](double mine) {
+    const double sum = returnReduce(mine, sumOp<scalar>());
+    return sum > 0 ? returnReduce(mine, maxOp<scalar>()) * Pstream::nProcs() / sum : 1.0;
+  };
+  const double cells = uneven(mesh_.nCells()), points = uneven(points_);
+  const double fluid = uneven(total_.fluid.wall - total_.fluid.waited);
+  const double exchange = uneven(total_.exchange.wall - total_.exchange.waited);
   if (!Pstream::master())
     return;
-  const auto line = [elapsed](const char* name, double seconds) {
-    std::printf("  %-10s %9.2f s %5.1f %%\n", name, seconds, 100 * seconds / elapsed);
-  };
-  std::printf("cost by part, mean over %d rank(s)\n", Pstream::nProcs());
-  line("DEM", dem);
-  line("fluid", fluid);
-  line("exchange", exchange);
-  line("link", link);
-  line("rest", elapsed - dem - fluid - exchange - link);
+  std::printf("%s", demLoad_.table().c_str());
+  std::printf(
+      "load of %d rank(s) of the fluid, fullest or busiest over mean: cells %.3f, particles %.3f, computing the "
+      "flow %.3f, the exchange %.3f\n",
+      Pstream::nProcs(), cells, points, fluid, exchange);
   std::fflush(stdout);
 }
 

@@ -3,10 +3,13 @@
 // Fields pass through memory, so that what is written, and its checksum, is known before the disk can refuse it.
 #include "fluidCheckpoint.H"
 
+#include "fieldsOfParts.H"
+
 #include "link/durable_files.h"
 
 #include "IFstream.H"
 #include "IOobject.H"
+#include "OSspecific.H"
 #include "OStringStream.H"
 #include "Time.H"
 #include "zeroGradientFvPatchFields.H"
@@ -28,23 +31,26 @@ const char* const kFolder = "checkpoints";
 const char* const kPrefix = "fluid-";
 const char* const kComplete = ".complete";
 const char* const kFacts = "facts";
+const char* const kPart = "part";
 
 std::string named(std::int64_t step) {
   return kPrefix + std::to_string(step);
 }
 
-/// Instance of the checkpoint's fields below the case or processor folder.
-fileName instanceOf(std::int64_t step) {
-  return fileName(kFolder) / named(step);
+/// In the case, not in the processor folders: decomposePar removes these when the ranks become others.
+fileName stepFolder(const Time& time, std::int64_t step) {
+  return time.globalPath() / kFolder / named(step);
 }
 
-std::string rankFolder(const Time& time, std::int64_t step) {
-  return time.path() / instanceOf(step);
+fileName rankFolder(const Time& time, std::int64_t step, label rank) {
+  return stepFolder(time, step) / ("rank" + std::to_string(rank));
 }
 
 std::string recordOf(const Time& time, std::int64_t step) {
   return time.globalPath() / kFolder / (named(step) + kComplete);
 }
+
+const char* const kWriting = "no checkpoint could be written: ";
 
 /// The first sentence of any rank, on every rank.
 std::string shared(const std::string& sentence) {
@@ -59,7 +65,7 @@ std::string shared(const std::string& sentence) {
 }
 
 /// Runs what may fail on one rank alone, and then fails on every rank.
-template <class Work> void together(Work&& work) {
+template <class Work> void together(const char* what, Work&& work) {
   std::string problem;
   try {
     work();
@@ -68,7 +74,7 @@ template <class Work> void together(Work&& work) {
   }
   problem = shared(problem);
   if (!problem.empty())
-    throw link::Refusal("no checkpoint could be written: " + problem);
+    throw link::Refusal(what + problem);
 }
 
 template <class Field> void add(link::DurableFolder& folder, const word& name, const Field& field) {
@@ -81,14 +87,19 @@ template <class Field> void add(link::DurableFolder& folder, const word& name, c
   folder.add(name, bytes.data(), bytes.size());
 }
 
-IOobject stored(const word& name, const fvMesh& mesh, std::int64_t step) {
-  return IOobject(name, instanceOf(step), mesh, IOobject::MUST_READ, IOobject::NO_WRITE, false);
-}
+/// Fields that this rank has written itself: bit for bit.
+class ownFields {
+ public:
+  ownFields(const fvMesh& mesh, std::int64_t step)
+      : mesh_(mesh), folder_(rankFolder(mesh.time(), step, Pstream::myProcNo())) {}
+  template <class Field> void read(Field& field, const word& name) const {
+    field == Field(IOobject(name, folder_, mesh_, IOobject::MUST_READ, IOobject::NO_WRITE, false), mesh_);
+  }
 
-template <class Field> void readInto(Field& field, const word& name, std::int64_t step) {
-  const fvMesh& mesh = field.mesh();
-  field == Field(stored(name, mesh, step), mesh);
-}
+ private:
+  const fvMesh& mesh_;
+  const fileName folder_;
+};
 
 word memoryName(std::size_t number) {
   return "spreading" + std::to_string(number);
@@ -100,7 +111,8 @@ volScalarField cellValues(const word& name, const fvMesh& mesh) {
 }
 
 /// Calls visit(field, name in the checkpoint) for all that averagedFlow keeps from one step to the next.
-template <class Visit> void forFields(const fvMesh& mesh, Visit&& visit) {
+template <class Visit> void forFields(averagedFlow& flow, bool pending, Visit&& visit) {
+  const fvMesh& mesh = flow.mesh();
   auto& U = mesh.lookupObjectRef<volVectorField>("U");
   auto& alpha = mesh.lookupObjectRef<volScalarField>("alpha");
   auto& phi = mesh.lookupObjectRef<surfaceScalarField>("phi");
@@ -117,34 +129,66 @@ template <class Visit> void forFields(const fvMesh& mesh, Visit&& visit) {
   visit(mesh.lookupObjectRef<volVectorField>("withheldForce"), "withheldForce");
   if (mesh.foundObject<volScalarField>("driveResponse"))
     visit(mesh.lookupObjectRef<volScalarField>("driveResponse"), "driveResponse");
+  if (pending) {
+    visit(flow.particleForce(), "particleForce");
+    visit(flow.exchange(), "exchange");
+  }
 }
 
-/// Also those that are newer: they belong to a run that was given up.
+/// All of the flow, and values per cell, through `from`.read(field, name).
+template <class From>
+void readAll(averagedFlow& flow, bool pending, const std::vector<scalarField*>& cells, const From& from) {
+  forFields(flow, pending, [&](auto& field, const word& name) { from.read(field, name); });
+  std::size_t number = 0;
+  for (scalarField* values : cells) {
+    const word name = memoryName(number++);
+    volScalarField field(cellValues(name, flow.mesh()));
+    from.read(field, name);
+    *values = field.primitiveField();
+  }
+}
+
+label ranksOf(const link::Manifest& record) {
+  label ranks = 0;
+  for (const auto& [name, value] : record.notes)
+    ranks += name == "rank";
+  return ranks;
+}
+
+meshPart storedPart(const Time& time, std::int64_t step, label rank) {
+  IFstream is(rankFolder(time, step, rank) / kPart);
+  meshPart part;
+  is >> part;
+  return part;
+}
+
+/// Also those that are newer: they belong to a run that was given up. On the first rank, when all have written.
 void removeOthers(const Time& time, std::int64_t step) {
-  const std::string folder = time.path() / kFolder;
+  if (!Pstream::master())
+    return;
   int kept = 0;
-  for (const std::int64_t other : link::numbered_entries(folder, kPrefix)) {
+  for (const std::int64_t other : link::numbered_entries(time.globalPath() / kFolder, kPrefix)) {
     if (other <= step && kept++ < kKept)
       continue;
     std::error_code ignored;
     std::filesystem::remove(recordOf(time, other), ignored);
-    std::filesystem::remove_all(rankFolder(time, other), ignored);
+    std::filesystem::remove_all(std::string(stepFolder(time, other)), ignored);
   }
 }
 
 } // namespace
 
-std::string write(averagedFlow& flow, exchange::particleExchange& exchange, const link::CheckpointMark& mark,
-                  const dictionary& facts) {
+std::string write(averagedFlow& flow, bool pending, const std::vector<scalarField*>& cells,
+                  const link::CheckpointMark& mark, const dictionary& facts) {
   const fvMesh& mesh = flow.mesh();
   const Time& time = mesh.time();
   std::unique_ptr<link::DurableFolder> folder;
   std::uint32_t checksum = 0;
-  together([&] {
-    folder = std::make_unique<link::DurableFolder>(rankFolder(time, mark.step));
-    forFields(mesh, [&](const auto& field, const word& name) { add(*folder, name, field); });
+  together(kWriting, [&] {
+    folder = std::make_unique<link::DurableFolder>(rankFolder(time, mark.step, Pstream::myProcNo()));
+    forFields(flow, pending, [&](const auto& field, const word& name) { add(*folder, name, field); });
     std::size_t number = 0;
-    for (const scalarField* values : exchange.memory()) {
+    for (const scalarField* values : cells) {
       const word name = memoryName(number++);
       volScalarField field(cellValues(name, mesh));
       field.primitiveFieldRef() = *values;
@@ -156,12 +200,16 @@ std::string write(averagedFlow& flow, exchange::particleExchange& exchange, cons
     facts.write(os, false);
     const std::string text = os.str();
     folder->add(kFacts, text.data(), text.size());
+    OStringStream part;
+    part << meshPart(mesh);
+    const std::string division = part.str();
+    folder->add(kPart, division.data(), division.size());
   });
-  together([&] { checksum = folder->commit(mark); });
+  together(kWriting, [&] { checksum = folder->commit(mark); });
   List<scalar> checksums(Pstream::nProcs());
   checksums[Pstream::myProcNo()] = checksum;
   Pstream::gatherList(checksums);
-  together([&] {
+  together(kWriting, [&] {
     if (!Pstream::master())
       return;
     link::Notes notes = {{"ranks", std::to_string(Pstream::nProcs())}};
@@ -197,7 +245,7 @@ void begin(Time& time, bool again) {
   std::ostringstream value;
   value.precision(kAllDigits);
   value << time.value();
-  together([&] {
+  together(kWriting, [&] {
     if (!Pstream::master())
       return;
     std::filesystem::create_directories(std::filesystem::path(path).parent_path());
@@ -208,38 +256,53 @@ void begin(Time& time, bool again) {
 bool whole(const fvMesh& mesh, const link::CheckpointMark& mark, std::string& why) {
   const Time& time = mesh.time();
   std::string problem;
-  // Read by every rank: processor folders lie where the case lies, or the case could not run.
+  // Read by every rank: the ranks share the case's folder.
   const std::optional<link::Manifest> record = link::read_record(recordOf(time, mark.step), &problem);
   if (record) {
     std::vector<std::string> sums;
     for (const auto& [name, value] : record->notes)
       if (name == "rank")
         sums.push_back(value);
-    const std::size_t rank = Pstream::myProcNo();
     if (mark.id != 0 && record->mark.id != mark.id)
       problem = "'" + recordOf(time, mark.step) + "' belongs to another run than the DEM side's";
-    else if (sums.size() != std::size_t(Pstream::nProcs()))
-      problem = "'" + recordOf(time, mark.step) + "' was written by " + std::to_string(sums.size()) +
-                " ranks and this run has " + std::to_string(Pstream::nProcs()) + ": use as many";
-    else if (const auto part = link::check_folder(rankFolder(time, mark.step), &problem);
-             part && std::to_string(part->checksum) != sums[rank])
-      problem = "'" + rankFolder(time, mark.step) + "' belongs to another checkpoint";
+    // Whoever wrote them: each rank looks after its share.
+    for (std::size_t rank = Pstream::myProcNo(); rank < sums.size() && problem.empty(); rank += Pstream::nProcs()) {
+      const std::string folder = rankFolder(time, mark.step, label(rank));
+      const auto part = link::check_folder(folder, &problem);
+      if (part && std::to_string(part->checksum) != sums[rank])
+        problem = "'" + folder + "' belongs to another checkpoint";
+    }
   }
   why = shared(problem);
   return why.empty();
 }
 
 dictionary facts(const fvMesh& mesh, std::int64_t step) {
-  IFstream is(fileName(rankFolder(mesh.time(), step)) / kFacts);
+  const fileName own = rankFolder(mesh.time(), step, Pstream::myProcNo()) / kFacts;
+  IFstream is(isFile(own) ? own : rankFolder(mesh.time(), step, 0) / kFacts);
   return dictionary(is);
 }
 
-void readFields(averagedFlow& flow, exchange::particleExchange& exchange, std::int64_t step) {
+void readFields(averagedFlow& flow, bool pending, const std::vector<scalarField*>& cells, std::int64_t step) {
   const fvMesh& mesh = flow.mesh();
-  forFields(mesh, [&](auto& field, const word& name) { readInto(field, name, step); });
-  std::size_t number = 0;
-  for (scalarField* values : exchange.memory())
-    *values = volScalarField(stored(memoryName(number++), mesh, step), mesh).primitiveField();
+  const Time& time = mesh.time();
+  const std::optional<link::Manifest> record = link::read_record(recordOf(time, step));
+  const label ranks = record ? ranksOf(*record) : 0;
+  const bool same = ranks == Pstream::nProcs() && storedPart(time, step, Pstream::myProcNo()) == meshPart(mesh);
+  if (returnReduce(same, andOp<bool>())) {
+    readAll(flow, pending, cells, ownFields(mesh, step));
+    return;
+  }
+  List<meshPart> parts(ranks);
+  fileNameList folders(ranks);
+  forAll(parts, rank) {
+    parts[rank] = storedPart(time, step, rank);
+    folders[rank] = rankFolder(time, step, rank);
+  }
+  std::unique_ptr<fieldsOfParts> from;
+  together("", [&] { from = std::make_unique<fieldsOfParts>(mesh, folders, parts); });
+  readAll(flow, pending, cells, *from);
+  Info << "the checkpoint of " << ranks << " rank(s) is divided anew among " << Pstream::nProcs() << endl;
 }
 
 } // namespace eccentra::fluidCheckpoint

@@ -136,8 +136,8 @@ TEST_F(DurableFiles, NewestWholeOneIsChosen) {
 }
 
 TEST_F(DurableFiles, RecordOfTheOtherSideIsFollowed) {
-  write_folder("checkpoints/fluid-640", {640, 5});
-  const auto part = check_folder("checkpoints/fluid-640");
+  write_folder("checkpoints/fluid-640/rank0", {640, 5});
+  const auto part = check_folder("checkpoints/fluid-640/rank0");
   ASSERT_TRUE(part);
   const std::string record = fs::absolute("checkpoints/fluid-640.complete");
   write_record(record, {640, 5}, {{"ranks", "1"}, {"rank", std::to_string(part->checksum)}});
@@ -149,7 +149,7 @@ TEST_F(DurableFiles, RecordOfTheOtherSideIsFollowed) {
   dem.mark.id = 6;
   EXPECT_FALSE(fluid_record_is_whole(dem, why));
   dem.mark.id = 5;
-  fs::resize_file("checkpoints/fluid-640/a file", 1);
+  fs::resize_file("checkpoints/fluid-640/rank0/a file", 1);
   EXPECT_FALSE(fluid_record_is_whole(dem, why));
   EXPECT_NE(why.find("has 1 bytes"), std::string::npos) << why;
   dem.notes = {{"fluid", "/no/such/folder/on/this/machine/fluid-640.complete"}};
