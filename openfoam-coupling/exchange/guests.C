@@ -3,8 +3,6 @@
 // Particles cross from the ranks of DEM to the ranks of the mesh.
 #include "guests.H"
 
-#include "rankExchange.H"
-
 #include "boundBox.H"
 
 #include <cmath>
@@ -72,7 +70,7 @@ void guests::searchAll(const link::ParticleArrays& particles) {
     MPI_Allreduce(MPI_IN_PLACE, &anyone, 1, MPI_LONG, MPI_SUM, MPI_COMM_WORLD);
   if (anyone == 0)
     return;
-  const Arrivals<Query> asked = handOver(queries);
+  const Arrivals<Query> asked = send(queries);
   std::vector<std::vector<Finding>> findings(boxes_.size());
   for (std::size_t r = 0; r < boxes_.size(); ++r)
     for (int i = asked.begin[r]; i < asked.begin[r + 1]; ++i) {
@@ -81,7 +79,7 @@ void guests::searchAll(const link::ParticleArrays& particles) {
       finding.cell = walk_.nearestCell({query.position[0], query.position[1], query.position[2]}, finding.distanceSqr);
       findings[r].push_back(finding);
     }
-  const Arrivals<Finding> found = handOver(findings);
+  const Arrivals<Finding> found = send(findings);
   std::vector<double> nearest(particles.count, std::numeric_limits<double>::max());
   for (std::size_t r = 0; r < boxes_.size(); ++r)
     for (int i = found.begin[r]; i < found.begin[r + 1]; ++i) {
@@ -129,7 +127,7 @@ void guests::invite(const link::ParticleArrays& particles, VoidFraction method, 
 void guests::settle(std::vector<std::vector<Guest>>& outgoing) {
   here_.clear();
   for (;;) {
-    const Arrivals<Guest> arrived = handOver(outgoing);
+    const Arrivals<Guest> arrived = send(outgoing);
     here_.reserve(here_.size() + arrived.rows.size());
     for (auto& list : outgoing)
       list.clear();

@@ -54,7 +54,8 @@ PartSeconds& PartSeconds::operator+=(const PartSeconds& more) {
 }
 
 couplingReport::couplingReport(const fvMesh& mesh, const link::DemTerms& dem, int every, const dictionary* earlier)
-    : mesh_(mesh), every_(every), interval_(dem.time_step * dem.interval), started_(std::chrono::steady_clock::now()) {
+    : mesh_(mesh), every_(every), interval_(dem.time_step * dem.interval), stepsPerMeeting_(dem.interval),
+      started_(std::chrono::steady_clock::now()) {
   const vector gravity(vectorOf(dem.gravity));
   const vector across(gravity - axis_ * (axis_ & gravity));
   if (mag(across) > kVertical * mag(gravity))
@@ -161,6 +162,14 @@ couplingReport::Bed couplingReport::bed(const volScalarField& alpha) const {
 void couplingReport::add(averagedFlow& flow, const exchange::particleExchange& exchange, const link::Meeting& meeting,
                          const PartSeconds& seconds, const vector& onItsWay) {
   total_ += seconds;
+  // Crossing between ranks is the link's work, wherever it is done.
+  const exchange::guests::Traffic& traffic = exchange.present().traffic();
+  const Seconds crossing{traffic.seconds - traffic_.seconds, traffic.waited - traffic_.waited};
+  total_.exchange += {-crossing.wall, -crossing.waited};
+  total_.link += crossing;
+  traffic_ = traffic;
+  ++meetingsHere_;
+  steps_ += meeting.elapsed > 0;
   demLoad_.add(meeting);
   points_ += double(exchange.present().here().size());
   const bool last = meeting.steps_total > 0 && meeting.steps_done >= meeting.steps_total;
@@ -248,6 +257,22 @@ void couplingReport::finish() const {
     std::printf("  %-10s %9.2f s %5.1f %%\n", "rest", rest, 100 * rest / elapsed);
   }
   printLoad();
+  printLink(link, dem, fluid);
+}
+
+// The link beside what it links: a step of either side.
+void couplingReport::printLink(double link, double dem, double fluid) const {
+  const double sent = returnReduce(traffic_.bytes, sumOp<scalar>()),
+               most = returnReduce(traffic_.bytes, maxOp<scalar>());
+  if (!Pstream::master() || steps_ == 0)
+    return;
+  const double meeting = link / meetingsHere_, demStep = dem / (double(steps_) * stepsPerMeeting_),
+               fluidStep = fluid / steps_;
+  std::printf("link: %.3f ms a meeting, %.3g DEM steps or %.3g fluid intervals; %.3g kB a meeting between ranks of the "
+              "fluid, at most %.3g from one rank\n",
+              1e3 * meeting, demStep > 0 ? meeting / demStep : 0.0, fluidStep > 0 ? meeting / fluidStep : 0.0,
+              1e-3 * sent / meetingsHere_, 1e-3 * most / meetingsHere_);
+  std::fflush(stdout);
 }
 
 // What a rank computes besides waiting tells how even the division is.

@@ -213,6 +213,43 @@ TEST(Exchange, EveryGuestLiesInItsCellOrBehindAWall) {
   }
 }
 
+// No message speaks of particles that did not leave their rank, nor of their total number.
+TEST(Exchange, TrafficGrowsWithTheParticlesThatCrossBetweenRanks) {
+  const auto bytes = [](Scene& scene) {
+    ExchangeSettings settings;
+    settings.method = VoidFraction::centre;
+    particleExchange exchange(*sharedMesh, settings);
+    Foam::scalarField solid;
+    const auto meet = [&] {
+      exchange.deposit(scene.arrays(), kElapsed, solid, nullptr, nullptr);
+      exchange.sample({}, scene.arrays(), {});
+      return exchange.present().traffic().bytes;
+    };
+    // At the first meeting all are searched for.
+    const double search = meet();
+    return meet() - search;
+  };
+  constexpr double kRandom = 0.15;
+  Scene few = scattered(400), many = scattered(1600);
+  const double less = bytes(few), more = bytes(many);
+  if (ranks() == 1) {
+    EXPECT_EQ(more, 0);
+    return;
+  }
+  EXPECT_GT(less, 100 * sizeof(Guest) / 2);
+  EXPECT_NEAR(more / less, 4, 4 * kRandom);
+  Scene at_home = scattered(0);
+  for (std::size_t row = 0; row < many.position.size(); ++row)
+    if (many.ticket[row].rank == rank()) {
+      at_home.position.push_back(many.position[row]);
+      at_home.impulse.push_back(many.impulse[row]);
+      at_home.volume.push_back(many.volume[row]);
+      at_home.drag.push_back(many.drag[row]);
+    }
+  ASSERT_GT(at_home.position.size(), 100u);
+  EXPECT_EQ(bytes(at_home), 0);
+}
+
 TEST(Exchange, LinearFieldsAreSampledExactly) {
   Scene scene = scattered(300);
   particleExchange exchange(*sharedMesh, settingsOf(VoidFraction::centre));
