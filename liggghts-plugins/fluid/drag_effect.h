@@ -36,6 +36,10 @@ template <class Stress, class Law> class DragEffect : public Effect {
   std::vector<Validity> validity() const override { return {{kReynolds, Law::kLowestRe, Law::kHighestRe}}; }
   void apply(const Kick& kick) override {
     double sum[3] = {0.0, 0.0, 0.0};
+    // Copies: a force that is written could be one of the members, as far as the compiler knows.
+    const Stress stress = stress_;
+    const double density = density_;
+    const Law* laws = laws_.data();
     for (int i = 0; i < kick.count; ++i) {
       if (!(kick.mask[i] & kick.group))
         continue;
@@ -56,8 +60,8 @@ template <class Stress, class Law> class DragEffect : public Effect {
       place.fraction = std::clamp(kick.samples.fraction[i], kDragFractionFloor, 1.0);
       if constexpr (Law::kOriented)
         place.crosswise = shapes_->crosswise_sphericity(i, free);
-      const auto law = laws_[kick.kind[i]].in(place);
-      const Resistance<Stress, std::decay_t<decltype(law)>> drag{stress_, law, kPi / 8.0 * d * d, 1.0 / d, density_};
+      const auto law = laws[kick.kind[i]].in(place);
+      const Resistance<Stress, std::decay_t<decltype(law)>> drag{stress, law, kPi / 8.0 * d * d, 1.0 / d, density};
       const ImplicitSlip step = implicit_slip(drag, free_speed, compliance, std::sqrt(slip2));
       // What is exchanged is the force that was really given, so the fluid receives exactly what the particle lost. Its
       // linearisation is the answer of the stepped particle to the fluid's velocity: at most m/interval, also at rest.
