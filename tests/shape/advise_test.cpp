@@ -56,6 +56,27 @@ TEST(Advise, TakesTheCheapestLevelThatTheDataAreSureOf) {
   EXPECT_EQ(all[1].level.level, "C8");
 }
 
+TEST(Advise, SaysSoWhereTheFinestLevelIsMissing) {
+  const auto all = advise(read("section,disk,flux,m3/s,S1,250,1,3,nan,nan,7,\n"
+                               "section,disk,flux,m3/s,D48,nan,nan,0,nan,nan,nan,not run\n"
+                               "section,disk,height,mm,S1,1,1,3,nan,nan,7,\n"
+                               "section,disk,height,mm,D48,0,0,3,nan,nan,7,\n"),
+                          "disk", "", 0.05);
+  ASSERT_EQ(all.size(), 2u);
+  for (const Advice& a : all)
+    EXPECT_EQ(a.confidence, Confidence::unknown);
+  EXPECT_NE(text_of(all, 0.05, "levels.csv").find("D48 has no result"), std::string::npos);
+  EXPECT_EQ(json_of(all, 0.05, "levels.csv")["advice"][0]["confidence"], "not known");
+}
+
+// Results of the annulus have commas in their names.
+TEST(Advise, ReadsQuotedCells) {
+  const auto results = read("section,cube,\"annulus 0 deg, 0.58 m/s: \"\"flux\"\"\",m3/s,C64,2,0.1,3,nan,nan,16,\n");
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_EQ(results[0].result, "annulus 0 deg, 0.58 m/s: \"flux\"");
+  EXPECT_EQ(results[0].level, "C64");
+}
+
 TEST(Advise, SaysWhereDeviationAloneIsWithinTheErrorAndWhereNoLevelIs) {
   EXPECT_EQ(advise(read(kHeap), "cube", "heap", 0.025)[0].level.level, "C64");
   EXPECT_EQ(advise(read(kHeap), "cube", "heap", 0.025)[0].confidence, Confidence::likely);

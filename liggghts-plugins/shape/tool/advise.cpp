@@ -24,13 +24,22 @@ constexpr const char* kMaker = "scripts/accuracy-cost writes such files";
 constexpr double kDiameter = 1.0; ///< ratios do not depend on it
 constexpr double kPercent = 100.0;
 
+/// Cells of a line of CSV (RFC 4180): quotes keep commas together, "" is a quote.
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> cells(1);
-  for (const char c : line) {
-    if (c == ',')
-      cells.emplace_back();
-    else if (c != '\r')
+  bool quoted = false;
+  for (std::size_t n = 0; n < line.size(); ++n) {
+    const char c = line[n];
+    if (quoted && c == '"' && n + 1 < line.size() && line[n + 1] == '"') {
       cells.back() += c;
+      ++n;
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      cells.emplace_back();
+    } else if (c != '\r') {
+      cells.back() += c;
+    }
   }
   return cells;
 }
@@ -44,7 +53,17 @@ double number(const std::string& text, const std::string& where) {
 }
 
 const char* word_of(Confidence confidence) {
-  return confidence == Confidence::sure ? "sure" : confidence == Confidence::likely ? "likely" : "reference only";
+  switch (confidence) {
+  case Confidence::sure:
+    return "sure";
+  case Confidence::likely:
+    return "likely";
+  case Confidence::reference:
+    return "reference only";
+  case Confidence::unknown:
+    break;
+  }
+  return "not known";
 }
 
 double relative(double value, double reference) {
@@ -105,19 +124,22 @@ std::vector<LevelResult> read_level_results(std::istream& in, const std::string&
 std::vector<Advice> advise(const std::vector<LevelResult>& results, const std::string& body, const std::string& scene,
                            double error) {
   std::vector<Advice> all;
-  const auto wanted = [&](const LevelResult& row) {
-    return row.body == body && (scene.empty() || row.scene == scene) && !row.failed && std::isfinite(row.mean);
-  };
-  for (const LevelResult& row : results)
-    if (wanted(row) && std::isnan(row.deviation)) {
-      const bool known = std::any_of(all.begin(), all.end(),
-                                     [&](const Advice& a) { return a.scene == row.scene && a.result == row.result; });
-      if (!known)
-        all.push_back({row.scene, row.result, row, row, Confidence::reference});
-    }
-  for (Advice& advice : all)
+  const auto wanted = [&](const LevelResult& row) { return row.body == body && (scene.empty() || row.scene == scene); };
+  const auto has_result = [](const LevelResult& row) { return !row.failed && std::isfinite(row.mean); };
+  for (const LevelResult& row : results) {
+    if (!wanted(row))
+      continue;
+    const auto known = std::find_if(all.begin(), all.end(),
+                                    [&](const Advice& a) { return a.scene == row.scene && a.result == row.result; });
+    Advice& advice = known == all.end() ? all.emplace_back() : *known;
+    const bool usable = has_result(row) && row.mean != 0;
+    advice = {row.scene, row.result, row, row, usable ? Confidence::reference : Confidence::unknown};
+  }
+  for (Advice& advice : all) {
+    if (advice.confidence == Confidence::unknown)
+      continue;
     for (const LevelResult& row : results) {
-      if (!wanted(row) || row.scene != advice.scene || row.result != advice.result ||
+      if (!wanted(row) || !has_result(row) || row.scene != advice.scene || row.result != advice.result ||
           !(std::abs(row.deviation) <= error))
         continue;
       const Confidence confidence =
@@ -127,6 +149,7 @@ std::vector<Advice> advise(const std::vector<LevelResult>& results, const std::s
         advice.level = row;
       }
     }
+  }
   if (all.empty())
     throw std::invalid_argument(
         "there is no result of " + body + (scene.empty() ? "" : " in the scene '" + scene + "'") +
@@ -135,12 +158,24 @@ std::vector<Advice> advise(const std::vector<LevelResult>& results, const std::s
 }
 
 std::string text_of(const std::vector<Advice>& advice, double error, const std::string& source) {
-  std::string text = fmt::format("cheapest level within {:g} % of the finest one, by the runs in {}\n"
-                                 "  {:<14} {:<36} {:<14} {:>20} {:>9}  {}\n",
-                                 kPercent * error, source, "scene", "result", "level", "deviation", "of time", "it is");
-  int unsure = 0, fewest = std::numeric_limits<int>::max();
+  std::size_t scene = 0, result = 0;
+  for (const Advice& a : advice) {
+    scene = std::max(scene, a.scene.size());
+    result = std::max(result, a.result.size());
+  }
+  std::string text =
+      fmt::format("cheapest level within {:g} % of the finest one, by the runs in {}\n"
+                  "  {:<{}} {:<{}} {:<14} {:>20} {:>9}  {}\n",
+                  kPercent * error, source, "scene", scene, "result", result, "level", "deviation", "of time", "it is");
+  int missing = 0, unsure = 0, fewest = std::numeric_limits<int>::max();
   double noise = 0;
   for (const Advice& a : advice) {
+    if (a.confidence == Confidence::unknown) {
+      text += fmt::format("  {:<{}} {:<{}} {:<14} {:>20} {:>9}  {}\n", a.scene, scene, a.result, result, "-",
+                          a.reference.level + " has no result", "-", word_of(a.confidence));
+      ++missing;
+      continue;
+    }
     const double reference_noise = std::abs(a.reference.standard_error / a.reference.mean);
     noise = std::max(noise, std::isfinite(reference_noise) ? reference_noise : 0.0);
     unsure += a.confidence != Confidence::sure;
@@ -149,12 +184,16 @@ std::string text_of(const std::vector<Advice>& advice, double error, const std::
         a.confidence == Confidence::reference
             ? "is the reference"
             : fmt::format("{:+.1f} +- {:.1f} %", kPercent * a.level.deviation, kPercent * a.level.deviation_error);
-    text += fmt::format("  {:<14} {:<36} {:<14} {:>20} {:>8.2f}x  {}\n", a.scene, a.result, a.level.level, deviation,
-                        a.level.seconds / a.reference.seconds, word_of(a.confidence));
+    text += fmt::format("  {:<{}} {:<{}} {:<14} {:>20} {:>8.2f}x  {}\n", a.scene, scene, a.result, result,
+                        a.level.level, deviation, a.level.seconds / a.reference.seconds, word_of(a.confidence));
   }
-  text += fmt::format(
-      "This rests on {} run(s) or more of each level; the references themselves are known to {:.1f} % at worst.\n",
-      fewest, kPercent * noise);
+  if (missing < static_cast<int>(advice.size()))
+    text += fmt::format(
+        "This rests on {} run(s) or more of each level; the references themselves are known to {:.1f} % at worst.\n",
+        fewest, kPercent * noise);
+  if (missing)
+    text += fmt::format(
+        "'not known', {} times: the finest level was not run or gives 0, so that no deviation is known.\n", missing);
   if (unsure)
     text +=
         "'likely': the deviation is within the error, but its standard error is not: more seeds would tell. 'reference "
@@ -164,7 +203,14 @@ std::string text_of(const std::vector<Advice>& advice, double error, const std::
 
 nlohmann::json json_of(const std::vector<Advice>& advice, double error, const std::string& source) {
   nlohmann::json rows = nlohmann::json::array();
-  for (const Advice& a : advice)
+  for (const Advice& a : advice) {
+    if (a.confidence == Confidence::unknown) {
+      rows.push_back({{"scene", a.scene},
+                      {"result", a.result},
+                      {"reference", a.reference.level},
+                      {"confidence", word_of(a.confidence)}});
+      continue;
+    }
     rows.push_back({{"scene", a.scene},
                     {"result", a.result},
                     {"level", a.level.level},
@@ -174,6 +220,7 @@ nlohmann::json json_of(const std::vector<Advice>& advice, double error, const st
                     {"reference", a.reference.level},
                     {"runs", std::min(a.level.runs, a.reference.runs)},
                     {"confidence", word_of(a.confidence)}});
+  }
   return {{"error", error}, {"rests_on", source}, {"advice", rows}};
 }
 

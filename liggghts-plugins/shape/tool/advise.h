@@ -27,9 +27,10 @@ std::vector<LevelResult> read_level_results(std::istream& in, const std::string&
 
 /// How sure the data are that a level stays within the error.
 enum class Confidence {
-  sure,     ///< deviation and its standard error together stay below it
-  likely,   ///< the deviation does, but its standard error reaches beyond
-  reference ///< no level does: the reference alone is left
+  sure,      ///< deviation and its standard error together stay below it
+  likely,    ///< the deviation does, but its standard error reaches beyond
+  reference, ///< no level does: the reference alone is left
+  unknown    ///< the finest level was not run, or gives 0: nothing to compare with
 };
 
 /// The cheapest level of one scene and result.
@@ -40,7 +41,8 @@ struct Advice {
 };
 
 /// One advice for each scene and result that `body` (cube, disk) was run in; `scene` empty: all of them. The reference
-/// is the level without deviation. Throws std::invalid_argument where there is none.
+/// is the last level of a scene's result, as scripts/accuracy-cost writes them. Throws std::invalid_argument where
+/// there is no result at all.
 std::vector<Advice> advise(const std::vector<LevelResult>& results, const std::string& body, const std::string& scene,
                            double error);
 
