@@ -254,7 +254,7 @@ class Study:
             if group.judged:
                 lines += [f"{group.title} [{group.unit}], {group.body}: {min((row.runs for row in group.rows if row.runs), default=0)} seeds or more", "",
                           tables.text(header, table), words, ""]
-                if any(row.runs for row in group.rows):
+                if group.candidates() or any(row.failed for row in group.rows):
                     page += [words + "\n"]
             for row in group.rows:
                 cells.append([group.scene, group.body, group.title, group.unit, row.level.name, row.value, row.error, row.runs, row.deviation,
@@ -275,18 +275,21 @@ class Study:
         columns = ["scene", "body", "result", "unit", "level", "mean", "standard_error", "runs", "deviation", "deviation_error", "cpu_s",
                    "wall_s", *(f"{part}_s" for part in timing.PARTS), "step_s", "critical_step_s", "contacts_at_critical", "failed"]
         tables.write_csv(self.output / "levels.csv", columns, cells)
+        first = []
         for body in self.bodies:
             shown = [group for group in self.groups if group.body == body and group.judged and group.candidates()]
             central = [group for group in shown if group.central]
-            panels = ([self.overall(body, central)] if len(central) > 1 else []) + [group.panel() for group in central]
+            panels = ([self.overall(central)] if len(central) > 1 else []) + [group.panel() for group in central]
             beside = [group.panel() for group in shown if not group.central]
             what = f"What a level of detail of the {body} costs and what it gets wrong"
-            pictures = []
             for name, chosen, more in ((f"levels-{body}", panels, ""), (f"levels-{body}-faster", beside, ", faster flow")):
                 if chosen:
-                    charts.write(self.output / f"{name}.svg", f"{what}{more} (dashed: Pareto front; ring: its knee)", chosen, COLUMNS.get(len(chosen), 3))
-                    pictures.append(f"![levels of the {body}{more}]({name}.svg)\n")
-            page[1:1] = pictures
+                    charts.write(self.output / f"{name}.svg", f"{what}{more} (dashed: Pareto front; ring: its knee)", chosen,
+                                 COLUMNS.get(len(chosen), 3))
+                    first += [f"![levels of the {body}{more}]({name}.svg)\n"]
+            if len(central) > 1:
+                first.append(self.overall_words(body, central))
+        page[1:1] = first
         page += self.summary()
         page += self.times()
         page += ["Time steps: the largest that divides a frame (dry) or a fluid step (annulus) and is at most "
@@ -305,22 +308,34 @@ class Study:
                                              for row in group.rows if row.runs]))
         return page
 
-    def overall(self, body, groups):
-        """The one picture: over the scenes, the median time as a share of the reference's and the median deviation."""
-        points, kinds = {}, {}
-        for level in {row.level.name: row.level for group in groups for row in group.rows[:-1]}.values():
-            rows = [(row, group.rows[-1]) for group in groups for row in group.candidates() if row.level.name == level.name]
+    def overall_points(self, groups):
+        """{level: (median of the time as a share of the reference's, median deviation [%])} of levels that all scenes have, the front
+        and its knee (or None)."""
+        points = {}
+        for level in {row.level for group in groups for row in group.rows[:-1]}:
+            rows = [(row, group.rows[-1]) for group in groups for row in group.candidates() if row.level == level]
             if len(rows) == len(groups):
-                points[level.name] = (statistics.median(row.cpu / reference.cpu for row, reference in rows),
-                                      100 * statistics.median(row.unsure() for row, _ in rows))
-                kinds[level.name] = level.kind
+                points[level] = (statistics.median(row.cpu / reference.cpu for row, reference in rows),
+                                 100 * statistics.median(row.unsure() for row, _ in rows))
+        points = dict(sorted(points.items(), key=lambda item: item[1]))
         names = list(points)
-        front = [names[i] for i in measures.pareto_front([points[n] for n in names])]
+        front = [names[i] for i in measures.pareto_front(list(points.values()))]
         bend = measures.knee([points[n] for n in front])
-        bend = None if bend is None else front[bend]
-        series = [charts.Series("", [charts.Point(*points[n]) for n in front], "#000000", True, False, True)]
-        series += [charts.Series("", [charts.Point(*points[n], label=short(n), ring=n == bend) for n in names if kinds[n] == kind],
-                                 charts.COLOURS[COLOUR[kind]]) for kind in COLOUR]
+        return points, front, None if bend is None else front[bend]
+
+    def overall_words(self, body, groups):
+        points, _, bend = self.overall_points(groups)
+        reference = groups[0].rows[-1].level.name
+        told = ", ".join(f"{level.name} {error:.0f} % at {share:.2f} of the time" for level, (share, error) in points.items())
+        return (f"{body.capitalize()}, median over {len(groups)} scenes of the deviation from {reference}: {told}."
+                + (f" The knee of the Pareto front is {bend.name}." if bend else "") + "\n")
+
+    def overall(self, groups):
+        """The one picture: cost and deviation over all scenes."""
+        points, front, bend = self.overall_points(groups)
+        series = [charts.Series("", [charts.Point(*points[level]) for level in front], "#000000", True, False, True)]
+        series += [charts.Series("", [charts.Point(*at, label=short(level.name), ring=level == bend) for level, at in points.items()
+                                      if level.kind == kind], charts.COLOURS[COLOUR[kind]]) for kind in COLOUR]
         reference = groups[0].rows[-1].level.name
         return charts.Panel(f"median of these {len(groups)} scenes", f"CPU time over that of {reference}",
                             f"deviation from {reference} [%]", series, True, True, legend=False)

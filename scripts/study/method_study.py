@@ -9,6 +9,7 @@ from . import charts, measures, runs, section, tables
 LENGTH, CONCENTRATION, VELOCITY = 0.15, 0.05, 0.58
 DEM_STEP = 5e-3 / 64
 BASE = {"velocity": VELOCITY, "length": LENGTH, "cells": "8 32 10", "fluid_step": 5e-3, "interval": 64}
+PERCENT = 2.0  # the accuracy that the plain words ask for
 RESULTS = ("gradient", "flux", "height")  # of section.QUANTITIES
 
 
@@ -44,6 +45,22 @@ def families(finest):
                           "diffusion"),
         "regularisation": ("largest viscosity [Pa s] at tau0 = 1 Pa, and the model", viscosities, "capped 1000"),
     }
+
+
+def _remark(row):
+    return "failed" if row["failed"] else "not run" if math.isnan(row["cpu"]) else "reference" if row["reference"] else ""
+
+
+def _plain_words(rows):
+    """The cheapest within PERCENT of the reference, from the numbers alone."""
+    reference = next(row for row in rows if row["reference"])
+    near = [row for row in rows if abs(row["deviation"][0]) * 100 <= PERCENT]
+    if not near:
+        return ""
+    best, worst = min(near, key=lambda row: row["cpu"]), max(near, key=lambda row: row["deviation"][1])
+    return (f"Within {PERCENT:g} % of {reference['name']} in the pressure gradient, the cheapest is {best['name']} "
+            f"({best['deviation'][0]:+.1%}): {tables.number(reference['cpu'] / best['cpu'], 2)} times less time. "
+            f"A deviation is known to {100 * worst['deviation'][1]:.1f} % here.\n")
 
 
 class Study:
@@ -95,17 +112,23 @@ class Study:
 
     def write(self):
         lines, page, panels = [], ["## Methods of the coupling\n", "![methods](methods.svg)\n"], []
+        missing = []
         header = ["method", "Pa/m", "+-", "off %", "+-", "centre mm", "off %", "CPU s", ""]
         for inclination in self.size.inclinations:
             for family, (what, variants, reference) in families(self.size.finest).items():
                 gradient, height = (self.of(inclination, family, q) for q in ("gradient", "height"))
+                if all(math.isnan(g["cpu"]) and not g["failed"] for g in gradient):
+                    missing.append(f"{family} at {inclination} degrees")
+                    continue
                 table = [[g["name"], *g["value"], 100 * g["deviation"][0], 100 * g["deviation"][1], 1e3 * h["value"][0],
-                          100 * h["deviation"][0], g["cpu"], "reference" if g["reference"] else "failed" if g["failed"] else ""]
+                          100 * h["deviation"][0], g["cpu"], _remark(g)]
                          for g, h in zip(gradient, height)]
                 title = f"{inclination} degrees, {VELOCITY} m/s: {what}"
                 lines += [title, "", tables.text(header, table)]
-                page += [f"{title}\n", tables.markdown(header, table)]
+                page += [f"{title}\n", tables.markdown(header, table), _plain_words(gradient)]
                 panels.append(self.panel(inclination, family, gradient, reference))
+        if missing:
+            page.append(f"Not run: {'; '.join(missing)}.\n")
         text = "\n".join(lines)
         (self.output / "methods.txt").write_text(text)
         print(text)
@@ -113,6 +136,8 @@ class Study:
         tables.write_csv(self.output / "methods.csv", columns,
                          [[r["inclination"], r["family"], r["name"], r["quantity"], *r["value"], *r["deviation"], r["cpu"], r["failed"]]
                           for r in self.rows])
+        if not panels:
+            return ["## Methods of the coupling\n", "Not run.\n"]
         charts.write(self.output / "methods.svg", "What the methods of the coupling cost and change "
                      f"({', '.join(f'{i} degrees' for i in self.size.inclinations)}, {VELOCITY} m/s, 5 % solid)", panels)
         return page

@@ -111,6 +111,24 @@ class Levels(unittest.TestCase):
         self.assertIn("it costs 4.0 times less", words)
 
 
+class Overall(unittest.TestCase):
+    def test_medians_over_scenes(self):
+        def group(values):  # {level: (value, CPU seconds)}, the reference last
+            rows = [level_study.Row(levels.Level(n, "cluster"), v, 0.0, 3, c, c, {}, 1e-5, {}) for n, (v, c) in values.items()]
+            made = level_study.Group("scene", "cube", "slope", "degrees", rows, True)
+            made.compare()
+            return made
+
+        groups = [group({"C8": (12.0, 1.0), "C27": (11.0, 3.0), "C64": (10.0, 10.0)}), group({"C8": (16.0, 2.0), "C64": (10.0, 10.0)}),
+                  group({"C8": (13.0, 4.0), "C27": (11.0, 3.0), "C64": (10.0, 10.0)})]
+        points, front, bend = level_study.Study.overall_points(None, groups)
+        self.assertEqual([level.name for level in points], ["C8"])  # C27 is not in all scenes
+        (share, error), = points.values()
+        self.assertAlmostEqual(share, 0.2)  # median of .1, .2, .4
+        self.assertAlmostEqual(error, 30.0)  # median of 20, 60, 30
+        self.assertEqual(([level.name for level in front], bend), (["C8"], None))
+
+
 class Measured(unittest.TestCase):
     HEAD = "Flow rate,Pipe rotation,Inclination,Concentration\n"
 
