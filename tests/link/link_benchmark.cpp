@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Time of one meeting over the socket link alone: rank 0 is the DEM side, rank 1 a fluid that answers at once.
+// Time of one meeting over the socket link alone: the first ranks are the DEM side, the others a fluid that answers at
+// once.
 #include "link/fluid_server.h"
 #include "link/socket_peer.h"
 #include "link/wire.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,7 +56,7 @@ double cpu_seconds() {
 }
 
 /// Wall-clock times of the meetings [s], sorted; empty if an answer was wrong.
-std::vector<double> times_of_meetings(link::FluidPeer& fluid, std::size_t count, bool extents) {
+std::vector<double> times_of_meetings(link::FluidPeer& fluid, std::size_t count, std::size_t total, bool extents) {
   std::vector<double> position(3 * count), volume(count, 1e-7), vector(3 * count), fraction(count), extent(9 * count);
   std::vector<link::Ticket> tickets(count);
   for (std::size_t i = 0; i < count; ++i)
@@ -83,7 +85,7 @@ std::vector<double> times_of_meetings(link::FluidPeer& fluid, std::size_t count,
   fluid.agree(terms);
   link::Meeting meeting;
   meeting.needed = kAsked;
-  meeting.totals.particles = static_cast<std::int64_t>(count);
+  meeting.totals.particles = static_cast<std::int64_t>(total);
   std::vector<double> seconds;
   for (int n = 0; n < kMeetings; ++n) {
     const double begun = MPI_Wtime();
@@ -97,6 +99,38 @@ std::vector<double> times_of_meetings(link::FluidPeer& fluid, std::size_t count,
   return seconds;
 }
 
+struct Words {
+  long particles = static_cast<long>(kParticles), dem_ranks = 1;
+};
+
+/// Nothing where they make no sense.
+std::optional<Words> read(int argc, char** argv) {
+  Words words;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    const std::string word = argv[i];
+    if (word != "--particles" && word != "--dem-ranks")
+      return {};
+    (word == "--particles" ? words.particles : words.dem_ranks) = std::strtol(argv[i + 1], nullptr, 10);
+  }
+  if (argc % 2 == 0 || words.particles < 1 || words.dem_ranks < 1)
+    return {};
+  return words;
+}
+
+/// One side's work; on rank 0 of DEM the sorted times.
+std::vector<double> meet(bool dem, MPI_Comm side, const char* path, const Words& words, bool extents) {
+  if (!dem) {
+    PromptFluid fluid;
+    link::FluidServer(side, std::string(path), {}, 1).serve(fluid);
+    return {};
+  }
+  int rank = 0;
+  MPI_Comm_rank(side, &rank);
+  const long begin = words.particles * rank / words.dem_ranks, end = words.particles * (rank + 1) / words.dem_ranks;
+  link::SocketPeer fluid(side, std::string(path), {});
+  return times_of_meetings(fluid, end - begin, words.particles, extents);
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -104,39 +138,41 @@ int main(int argc, char** argv) {
   int rank = 0, size = 0, failed = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &size);
-  const long count = argc > 1 ? std::strtol(argv[1], nullptr, 10) : static_cast<long>(kParticles);
-  if (size != 2 || count < 1) {
-    std::fprintf(stderr, "usage: mpirun -np 2 link_benchmark [PARTICLES]\n");
+  const std::optional<Words> words = read(argc, argv);
+  if (!words || words->dem_ranks >= size) {
+    std::fprintf(
+        stderr, "usage: mpirun -np N link_benchmark [--particles COUNT] [--dem-ranks D]   (D < N; default 30000, 1)\n");
     MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
   }
+  const bool dem = rank < words->dem_ranks;
+  MPI_Comm side = MPI_COMM_NULL;
+  MPI_Comm_split(MPI_COMM_WORLD, dem, rank, &side);
   for (const bool extents : {false, true}) {
     char path[64] = {};
     std::snprintf(path, sizeof path, "/tmp/eccentra-link-benchmark-%d-%d", int(getpid()), int(extents));
     MPI_Bcast(path, sizeof path, MPI_CHAR, 0, MPI_COMM_WORLD);
     const double begun = cpu_seconds();
-    if (rank == 1) {
-      PromptFluid fluid;
-      link::FluidServer(MPI_COMM_SELF, path, {}, 1).serve(fluid);
-      const double used = cpu_seconds() - begun;
-      MPI_Send(&used, 1, MPI_DOUBLE, 0, 0, MPI_COMM_WORLD);
-      continue;
-    }
-    std::vector<double> seconds;
-    {
-      link::SocketPeer fluid(MPI_COMM_SELF, path, {});
-      seconds = times_of_meetings(fluid, count, extents);
-    }
+    const std::vector<double> seconds = meet(dem, side, path, *words, extents);
     const double mine = cpu_seconds() - begun;
-    double others = 0;
-    MPI_Recv(&others, 1, MPI_DOUBLE, 1, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    double all = 0;
+    MPI_Reduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, 0, MPI_COMM_WORLD);
+    if (rank != 0)
+      continue;
     failed += seconds.empty();
-    if (!seconds.empty())
-      std::printf("%ld particles%s, %zu + %zu bytes each: median %.3f ms, fastest %.3f ms, slowest %.3f ms; "
-                  "processor time of both sides %.3f ms\n",
-                  count, extents ? " with extents" : "", link::wire::particle_row_bytes(extents),
-                  link::wire::samples_row_bytes(kAsked), 1e3 * seconds[seconds.size() / 2], 1e3 * seconds.front(),
-                  1e3 * seconds.back(), 1e3 * (mine + others) / kMeetings);
+    if (seconds.empty())
+      continue;
+    const double local = double(words->particles) / double(words->dem_ranks);
+    const std::size_t there = link::wire::particle_row_bytes(extents), back = link::wire::samples_row_bytes(kAsked);
+    std::printf(
+        "%ld particles%s, %ld + %ld ranks: median %.3f ms, fastest %.3f ms, slowest %.3f ms, %.0f ns a particle; "
+        "processor time of all ranks %.3f ms; %zu + %zu bytes a particle, %.1f kB a meeting from and to a rank of "
+        "DEM\n",
+        words->particles, extents ? " with extents" : "", words->dem_ranks, size - words->dem_ranks,
+        1e3 * seconds[seconds.size() / 2], 1e3 * seconds.front(), 1e3 * seconds.back(),
+        1e9 * seconds[seconds.size() / 2] / double(words->particles), 1e3 * all / kMeetings, there, back,
+        1e-3 * local * double(there + back));
   }
+  MPI_Comm_free(&side);
   MPI_Finalize();
   return failed;
 }
