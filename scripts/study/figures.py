@@ -45,6 +45,17 @@ def count(told, wanted, what):
            f"{len(judged) - len(holds) - len(against)} not told apart)."
 
 
+def flux_trend(told_of, what):
+    """At each filling that both have: how often the flux of b is smaller than that of a, for (a, b) in pairs of values."""
+    parts = []
+    for k in range(max((len(v.rungs) for pair in told_of for v in pair), default=0)):
+        both = [(a.rungs[k], b.rungs[k]) for a, b in told_of if min(len(a.rungs), len(b.rungs)) > k]
+        signs = [ladders.told_apart(b[1], a[1], b[2], a[2]) for a, b in both]
+        if both:
+            parts.append(f"at {100 * both[0][0][0]:.0f} % it falls in {signs.count(-1)}, rises in {signs.count(1)} of {len(signs)}")
+    return f"Flux carried at a filling, {what}: {'; '.join(parts)} comparisons." if parts else ""
+
+
 class Figures:
     def __init__(self, plan, estimates, fine_file):
         self.plan = plan
@@ -120,12 +131,16 @@ def finds(number, series, values):
         told.append(count(pairs(at, lambda k: (k[0], k[2]), lambda k: k[1]), 1, "C rises with inclination"))
         equal = [larger(at["S6", i, u], at["S1", i, u]) for (n, i, u) in at if n == "S1"]
         judged = [e for e in equal if e is not None]
+        told.append(flux_trend([(at[a], at[b]) for _, a, b, _ in pairs(at, lambda k: (k[0], k[2]), lambda k: k[1])],
+                               "from one inclination to the next larger"))
         told.append(f"S6 and S1 are not told apart in {sum(e == 0 for e in judged)} of {len(judged)} points.")
         told.append(vertical(at))
     elif number == 10:
         told.append(count(pairs(keyed, lambda k: k[0], lambda k: k[1]), -1, "C falls with velocity"))
         order = {"sphere S1": 0, "cube C64": 1, "disk D48": 2}
         told.append(count(pairs(keyed, lambda k: k[1], lambda k: order[k[0]]), 1, "disk > cube > sphere"))
+        neighbours = [(keyed[a], keyed[b]) for _, a, b, _ in pairs(keyed, lambda k: k[1], lambda k: order[k[0]])]
+        told.append(flux_trend(neighbours, "from sphere to cube to disk"))
     elif number == 11:
         for coarse, fine in (("C8", "C64"), ("C27", "C64"), ("D7", "D48"), ("D19", "D48")):
             for (name, u), value in keyed.items():
@@ -137,6 +152,7 @@ def finds(number, series, values):
                 cluster = values[series[{"cube": "C64", "disk": "D48"}[name.split(",")[0]] + "," + name.split(",")[1]][0][1]]
                 told.append(count([(0, a[0], b[0], larger(values[b[1]], values[a[1]])) for a, b in zip(points, points[1:])], 1,
                                   f"{name}: C grows with mu_shape"))
+                told.append(flux_trend([(values[a[1]], values[b[1]]) for a, b in zip(points, points[1:])], "as mu_shape grows"))
                 compared = [f"mu {x:.2f} {against(values[p], cluster)}" for x, p in points if larger(values[p], cluster) is not None]
                 if compared:
                     told.append("Against the cluster: " + "; ".join(compared) + ".")
@@ -147,8 +163,12 @@ def finds(number, series, values):
             for (x, a), (_, b) in zip(series[none], series[some]):
                 where = f"{x:g} rpm" if "turning" in none else f"{x:g} degrees"
                 told.append(f"With mu_shape at {where}: {against(values[b], values[a])} without.")
+        told.append(flux_trend([(values[a], values[b]) for none, some in ((names[0], names[1]), (names[2], names[3]))
+                                for (_, a), (_, b) in zip(series[none], series[some])], "with mu_shape against without"))
         turned = [(0, a, b, larger(values[b[1]], values[a[1]])) for name in names[2:] for a, b in zip(series[name], series[name][1:])]
         told.append(count(turned, -1, "Rotation lowers C"))
+        told.append(flux_trend([(values[a[1]], values[b[1]]) for name in names[2:] for a, b in zip(series[name], series[name][1:])],
+                               "as the pipe turns faster"))
     told = [t for t in told if "nothing to compare" not in t and "not compared with" not in t and "in 0 of 0 points" not in t]
     back = sorted({p.name() for points in series.values() for _, p in points if values[p].slides})
     if back:

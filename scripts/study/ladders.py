@@ -74,6 +74,12 @@ def top_of_both(a, b):
     return a.rungs[last], b.rungs[last]
 
 
+def told_apart(a, b, a_error, b_error):
+    """+1: a is larger than b, -1: smaller, 0: the errors (nan: not known, counted as none) do not tell them apart."""
+    spread = math.hypot(*(0 if math.isnan(e) else e for e in (a_error, b_error)))
+    return 0 if abs(a - b) <= ROOM * spread else (1 if a > b else -1)
+
+
 def larger(a, b):
     """+1: a is larger than b, -1: smaller, 0: the errors do not tell them apart; None: one failed, or nothing can be said. Where
     neither ladder reaches the injected flux, the one that carries less at the highest filling of both needs more solid."""
@@ -81,13 +87,11 @@ def larger(a, b):
         return None
     if a.bound and b.bound:
         (_, x, ex), (_, y, ey) = top_of_both(a, b)
-        difference, spread = y - x, math.hypot(0 if math.isnan(ex) else ex, 0 if math.isnan(ey) else ey)
+        return told_apart(y, x, ey, ex)
     elif a.bound or b.bound:  # the bound is larger, if it lies above the other value
         bound, value, sign = (a, b, 1) if a.bound else (b, a, -1)
         return sign if bound.value > value.value else None
-    else:
-        difference, spread = a.value - b.value, math.hypot(a.error, b.error)
-    return 0 if abs(difference) <= ROOM * spread else (1 if difference > 0 else -1)
+    return told_apart(a.value, b.value, a.error, b.error)
 
 
 class Ladders:

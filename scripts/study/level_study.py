@@ -28,6 +28,7 @@ class Size:
     bodies: tuple
     few_bodies: bool
     seeds: int
+    seeds_beside: int  # at most, at other velocities than CENTRAL_VELOCITY
     length: float
     cells: str
     seconds: dict
@@ -178,7 +179,7 @@ class Study:
                         jobs[body, scene, level.name, seed] = self.dry(scene, level, seed)
             for point in self.size.points if "section" in self.scenes else ():
                 for level in self.with_step(wet_levels, RESTITUTION_SECTION):
-                    for seed in section.SEEDS[: self.seeds]:
+                    for seed in section.SEEDS[: self.seeds if point[1] == CENTRAL_VELOCITY else min(self.seeds, self.size.seeds_beside)]:
                         jobs[body, point, level.name, seed] = self.wet(body, point, level, seed)
         results = {}
         for place in dict.fromkeys(place for _, place, _, _ in jobs):  # one after the other: what is complete can be shown
