@@ -7,8 +7,8 @@ import sys
 
 from . import runs
 
-REPEATS = 7  # in turn; the least counts, which other load disturbs least
-SHORT, LONG = 600, 9600  # steps; the difference is what counts
+REPEATS = 5  # in turn; the least counts, which other load disturbs least
+SHORT, LONG = 600, 6600  # steps; the difference is what counts
 ALLOWED = 1.03
 AWAKE = 1.1  # what looking at bodies that stay awake may cost: this one is on
 DRAG_ALLOWED = 2.0  # percent
