@@ -8,6 +8,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -21,15 +22,48 @@ constexpr double kHole = 0.0635, kPipe = 0.02413, kOffset = 0.019685, kLength = 
 
 Foam::fvMesh* sharedMesh = nullptr;
 
-void exchangeOf(benchmark::State& state, VoidFraction method) {
+std::vector<std::array<double, 3>> scatter() {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(0, 1);
-  std::vector<std::array<double, 3>> position, zero(kParticles, {0, 0, 0}), velocity(kParticles), pressure(kParticles);
+  std::vector<std::array<double, 3>> position;
   while (position.size() < kParticles) {
     const double x = kHole * (2 * unit(random) - 1), y = kHole * (2 * unit(random) - 1);
     if (std::hypot(x, y) < kHole && std::hypot(x, y + kOffset) > kPipe)
       position.push_back({x, y, kLength * unit(random)});
   }
+  return position;
+}
+
+/// What link solver adds to the work of both sides: particles reach the rank and cell where they are, seven doubles and
+/// the ticket come back.
+void travel(benchmark::State& state) {
+  std::vector<std::array<double, 3>> position = scatter(), zero(kParticles, {0, 0, 0});
+  const std::vector<double> volume(kParticles, 1e-9), drag(kParticles, 1e-8);
+  std::vector<double> samples(7 * std::size_t(kParticles));
+  std::vector<link::Ticket> tickets(kParticles);
+  link::ParticleArrays particles;
+  particles.count = kParticles;
+  particles.position = reinterpret_cast<const double(*)[3]>(position.data());
+  particles.volume = volume.data();
+  particles.impulse = reinterpret_cast<const double(*)[3]>(zero.data());
+  particles.drag_coefficient = drag.data();
+  particles.ticket = tickets.data();
+  guests present(*sharedMesh);
+  for (auto _ : state) {
+    for (auto& x : position)
+      x[2] = std::fmod(x[2] + 3e-5, kLength);
+    present.invite(particles, VoidFraction::centre, 0);
+    present.answer(
+        7, 0, [](const Guest& guest, double* values) { std::fill_n(values, 7, guest.volume); },
+        [&](int row, const double* centre, const double*) { std::copy_n(centre, 7, &samples[7 * std::size_t(row)]); });
+    present.stampTickets(tickets.data());
+  }
+  state.SetItemsProcessed(state.iterations() * kParticles);
+}
+
+void exchangeOf(benchmark::State& state, VoidFraction method) {
+  std::vector<std::array<double, 3>> position = scatter(), zero(kParticles, {0, 0, 0}), velocity(kParticles),
+                                     pressure(kParticles);
   const std::vector<double> volume(kParticles, M_PI / 6 * std::pow(kDiameter, 3)), drag(kParticles, 1e-8);
   std::vector<link::Ticket> tickets(kParticles);
   link::ParticleArrays particles;
@@ -79,6 +113,7 @@ int main(int argc, char** argv) {
   sharedMesh =
       new Foam::fvMesh(Foam::IOobject(Foam::fvMesh::defaultRegion, time->timeName(), *time, Foam::IOobject::MUST_READ));
   benchmark::Initialize(&argc, argv);
+  benchmark::RegisterBenchmark("link solver", travel)->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("exchange/centre", exchangeOf, VoidFraction::centre)->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("exchange/diffusion", exchangeOf, VoidFraction::diffusion)
       ->Unit(benchmark::kMillisecond);
