@@ -17,6 +17,7 @@ SAID = re.compile(r"^(\[\d+\] )?((ERROR( on proc \d+)?|[A-Za-z-]+: error): |clus
 
 
 LOOK = 0.5  # seconds between looks at a process
+ASLEEP = 30.0  # seconds without work after which it waits for what does not come
 
 
 class Broken(AssertionError):
@@ -47,7 +48,7 @@ class Programs:
 
     def __init__(self, build, factor=1):
         self.bin = pathlib.Path(build).resolve() / "bin"
-        self.limit = 40.0 * factor  # seconds; an answer takes half a second, with a machine to itself
+        self.limit = 20.0 * factor  # seconds of computing; an answer takes half a second, 500 spheres in an STL file four
         self.accepted = self.refused = 0
 
     def run(self, words, files, beside=None):
@@ -76,19 +77,21 @@ class Programs:
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
             process.communicate()
-            raise Broken(f"no end within {self.limit:g} s") from None
+            raise Broken(f"no end after {self.limit:g} s of computing, or {ASLEEP:g} s of waiting") from None
         return process.returncode, output.decode("utf-8", "replace")
 
     def _wait(self, process):
-        """Its output; TimeoutExpired after the time allowed. Time in which somebody has stopped the process does not count."""
-        left = self.limit
+        """Its output; TimeoutExpired once it has computed for longer than allowed, or has done nothing for ASLEEP seconds."""
+        asleep, before = 0.0, 0.0
         while True:
             try:
                 return process.communicate(timeout=LOOK)[0]
             except subprocess.TimeoutExpired:
-                stopped = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()[0] == "T"
-                left -= 0 if stopped else LOOK
-                if left < 0:
+                fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+                busy = sum(map(int, fields[11:15])) / os.sysconf("SC_CLK_TCK")
+                asleep = asleep + LOOK if busy == before and fields[0] == "S" else 0.0
+                before = busy
+                if busy > self.limit or asleep > ASLEEP:
                     raise
 
     def _judge(self, words, status, output):
