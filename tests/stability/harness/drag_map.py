@@ -48,30 +48,28 @@ def map_terminal(kind, stokes, cell):
     return -map_gravity(kind, stokes, cell) * response_time(diameter, FLUID * ratio, viscosity) * (ratio - 1) / ratio
 
 
-def map_settles(kind, stokes, steps, scheme):
-    """Meetings until a slip is steady. Semi-implicit momentum returns what it held back: a deviation decays by (1 + r)/(1 + kappa) per
-    interval, kappa = r St/(1 + St/N) the linearised drag of its DEM steps over the fluid's inertia. What is explicit shows at once."""
-    load = kind[2] * LOAD
-    kappa = load * stokes / (1 + stokes / steps)
-    return 3 if scheme != "semiImplicit" else max(60, math.ceil(9 * (1 + kappa) / (1 + load)), math.ceil(9 / stokes))
+def map_settles(stokes, scheme):
+    """Meetings before the kick, and after it. Semi-implicit momentum may return what it holds back long after (docs/couplingProperties.md);
+    the slip in the flow that the particles feel does not wait for that. What is explicit shows at once what becomes of it."""
+    return 3 if scheme != "semiImplicit" else max(100, math.ceil(9 / stokes))
 
 
-def map_drive(kind, stokes, steps, cell, scheme):
+def map_drive(kind, stokes, cell, scheme):
     """Gradient that carries the submerged weight, with one kick of the fluid after the first half of the run, as a table over time."""
     _, diameter, ratio, viscosity = kind
     interval = stokes * response_time(diameter, FLUID * ratio, viscosity)
     steady = LOAD * FLUID * (ratio - 1) * map_gravity(kind, stokes, cell)
     kick = steady - KICK * map_terminal(kind, stokes, cell) * -FLUID / interval
-    at = map_settles(kind, stokes, steps, scheme) + 1
+    at = map_settles(stokes, scheme) + 1
     times = ((0, steady), (at - 0.6, steady), (at - 0.5, kick), (at + 0.5, kick), (at + 0.6, steady), (1e6, steady))
     return "table (" + " ".join(f"({time * interval!r} {value!r})" for time, value in times) + ")"
 
 
-def map_slip(run, kind, stokes, cell, scheme):
-    """Slip over terminal slip at the meetings."""
+def map_slip(run, kind, stokes, cell, scheme, late=0):
+    """Slip over terminal slip at the meetings; late=1: in the flow of the meeting before, which the particles have felt since."""
     particles = run.column("v_w")
     fluid = [0.0] * len(particles) if scheme == "held" else [u / (1 - SOLID) for u in run.csv("mean_velocity")]
-    return [(v - u) / map_terminal(kind, stokes, cell) for v, u in zip(particles, fluid)]
+    return [(v - u) / map_terminal(kind, stokes, cell) for v, u in zip(particles[late:], fluid)]
 
 
 def map_factor(slip, scheme):
