@@ -36,7 +36,8 @@ Value linear(const Value& value, const Gradient& gradient, const vector& fromCen
 
 particleExchange::particleExchange(const fvMesh& mesh, const ExchangeSettings& settings)
     : mesh_(mesh), settings_(settings), guests_(mesh), overflow_(mesh, settings.mostSolid),
-      solidGuess_(mesh.nCells(), Zero), dragGuess_(mesh.nCells(), Zero), solidVolume_(mesh.nCells(), Zero) {
+      solidGuess_(mesh.nCells(), Zero), dragGuess_(mesh.nCells(), Zero), solidVolume_(mesh.nCells(), Zero),
+      pressureOwed_(mesh.nCells()), stressOwed_(mesh.nCells()) {
   if (!(settings.mostSolid > 0 && settings.mostSolid < 1))
     throw wrong("mostSolid", settings.mostSolid, "give a fraction between 0 and 1, such as 0.74");
   if (!(settings.fractionFloor >= 0 && settings.fractionFloor < 1))
@@ -63,6 +64,8 @@ std::vector<scalarField*> particleExchange::memory() {
   for (auto* triple : {&forceGuess_, &pressureGuess_, &stressGuess_})
     for (scalarField& guess : *triple)
       guesses.push_back(&guess);
+  pressureOwed_.addMemory(guesses);
+  stressOwed_.addMemory(guesses);
   return guesses;
 }
 
@@ -154,6 +157,27 @@ particleExchange::Readable particleExchange::adjointOf(const vectorField& field,
   return readable;
 }
 
+particleExchange::ToldFields particleExchange::toldFields(const FlowFields& flow, const fluid::FluidSamples& samples) {
+  ToldFields told;
+  scalarField fluidSolid, solid;
+  if (flow.share) {
+    fluidSolid = 1.0 - flow.fraction->primitiveField();
+    solid = solidVolume_ / mesh_.V();
+  }
+  const auto tell = [&](const vectorField& given, owedForce& owed) {
+    return flow.share ? owed.tell(given, fluidSolid, solid, *flow.share) : given;
+  };
+  if (samples.pressure_gradient)
+    told.pressureGradient = tell(*flow.pressureGradient, pressureOwed_);
+  if (samples.stress_divergence)
+    told.stressDivergence = tell(*flow.stressDivergence, stressOwed_);
+  return told;
+}
+
+vectorField particleExchange::untold() const {
+  return stressOwed_.back() - pressureOwed_.back();
+}
+
 void particleExchange::sample(const FlowFields& flow, const link::ParticleArrays& particles,
                               const fluid::FluidSamples& samples) {
   tmp<volTensorField> gradU;
@@ -162,11 +186,12 @@ void particleExchange::sample(const FlowFields& flow, const link::ParticleArrays
   tmp<volVectorField> gradFraction;
   if (samples.fraction)
     gradFraction = fvc::grad(*flow.fraction);
+  const ToldFields told = toldFields(flow, samples);
   Readable pressure, stress;
   if (samples.pressure_gradient)
-    pressure = adjointOf(*flow.pressureGradient, pressureGuess_);
+    pressure = adjointOf(told.pressureGradient, pressureGuess_);
   if (samples.stress_divergence)
-    stress = adjointOf(*flow.stressDivergence, stressGuess_);
+    stress = adjointOf(told.stressDivergence, stressGuess_);
 
   const int perCentre = (samples.velocity ? 3 : 0) + (samples.fraction ? 1 : 0) + (samples.vorticity ? 3 : 0);
   const int perPoint = (samples.pressure_gradient ? 3 : 0) + (samples.stress_divergence ? 3 : 0);
@@ -223,32 +248,32 @@ void particleExchange::sample(const FlowFields& flow, const link::ParticleArrays
   };
   guests_.answer(perCentre, perPoint, fill, add);
   guests_.stampTickets(particles.ticket);
-  balanceForces(flow, particles, samples);
+  balanceForces(told, particles, samples);
 }
 
-void particleExchange::balanceForces(const FlowFields& flow, const link::ParticleArrays& particles,
+void particleExchange::balanceForces(const ToldFields& told, const link::ParticleArrays& particles,
                                      const fluid::FluidSamples& samples) {
-  vector onMesh(Zero), onParticles(Zero);
+  vector onMesh(Zero), onParticles(Zero), pending(Zero);
   double scale = 0;
-  const auto addField = [&](const vectorField& field) { onMesh += sum(vectorField(solidVolume_ * field)); };
-  const auto addSamples = [&](const double(*values)[3]) {
+  const auto add = [&](const vectorField& field, const double(*values)[3], const owedForce& owed, double sign) {
+    onMesh += sum(vectorField(solidVolume_ * field));
     for (std::size_t i = 0; i < particles.count; ++i) {
       const vector force(particles.volume[i] * vector(values[i][0], values[i][1], values[i][2]));
       onParticles += force;
       scale += mag(force);
+      pending += sign * force;
     }
+    for (int k = 0; k < 3; ++k)
+      pending[k] += sign * sum(scalarField(owed.rest(k) * mesh_.V()));
   };
-  if (samples.pressure_gradient) {
-    addField(*flow.pressureGradient);
-    addSamples(samples.pressure_gradient);
-  }
-  if (samples.stress_divergence) {
-    addField(*flow.stressDivergence);
-    addSamples(samples.stress_divergence);
-  }
+  if (samples.pressure_gradient)
+    add(told.pressureGradient, samples.pressure_gradient, pressureOwed_, -1);
+  if (samples.stress_divergence)
+    add(told.stressDivergence, samples.stress_divergence, stressOwed_, 1);
   balance_.pressureForceScale = returnReduce(scale, sumOp<scalar>());
   balance_.meshPressureForce = sumOverRanks(onMesh);
   balance_.particlePressureForce = sumOverRanks(onParticles);
+  balance_.pendingForce = sumOverRanks(pending);
 }
 
 } // namespace eccentra::exchange

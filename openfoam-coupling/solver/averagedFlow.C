@@ -45,6 +45,9 @@ const scalar solidVolumeTolerance = 1e-8;
 // Guards the division only: see correctPressure.
 const scalar leastRowSum = 1e-12;
 
+// Part of what is held back that returns in one step, at least.
+const scalar leastReturned = 0.02;
+
 // No incompressible flow is faster [m/s]: sound in water travels at 1500 m/s.
 const scalar fastestFlow = 1e4;
 
@@ -95,7 +98,7 @@ averagedFlow::coupledFields::coupledFields(const fvMesh& mesh, const surfaceScal
                     zeroGradientFvPatchVectorField::typeName),
       withheld(state("withheldForce", mesh), mesh, dimensionedVector(dimAcceleration, Zero),
                zeroGradientFvPatchVectorField::typeName),
-      alphaf("alphaf", fvc::interpolate(alpha)), alphaPhi("alphaPhi", alphaf * phi),
+      returned(mesh.nCells(), Zero), alphaf("alphaf", fvc::interpolate(alpha)), alphaPhi("alphaPhi", alphaf * phi),
       imbalance(scratch("imbalance", mesh), mesh, dimensionedScalar("initial", dimless / dimTime, 0)) {
   keepOldTimes(alpha);
 }
@@ -153,6 +156,12 @@ const volVectorField& averagedFlow::withheldForce() const {
   return fields("withheld force").withheld;
 }
 
+void averagedFlow::takeBack(const vectorField& force) {
+  volVectorField& withheld = fields("withheld force").withheld;
+  withheld.primitiveFieldRef() += force;
+  withheld.correctBoundaryConditions();
+}
+
 void averagedFlow::resetFractionHistory() {
   volScalarField& present = alpha();
   present.correctBoundaryConditions();
@@ -176,6 +185,7 @@ void averagedFlow::advance() {
   if (coupled_.valid()) {
     checkSolidVolume();
     coupled_->alphaf = fvc::interpolate(coupled_->alpha);
+    chooseReturned();
   }
   while (pimple_.loop()) {
     tmp<fvVectorMatrix> tUEqn = momentumMatrix();
@@ -268,12 +278,10 @@ tmp<fvVectorMatrix> averagedFlow::momentumMatrix() {
     const vectorField& Uold = U_.oldTime().primitiveField();
     const scalarField& alpha = c.alpha.primitiveField();
     const vector G = drive_.acceleration().value();
-    // What was held back is an impulse: a force of the last step's length.
-    const scalar returned = mesh_.time().deltaT0Value() / mesh_.time().deltaTValue();
     vectorField& source = tUEqn.ref().source();
     forAll(source, celli) {
-      source[celli] += V[celli] * (c.particleForce[celli] + returned * c.withheld[celli] +
-                                   c.exchange[celli] * Uold[celli] + alpha[celli] * G);
+      source[celli] +=
+          V[celli] * (c.particleForce[celli] + c.returned[celli] + c.exchange[celli] * Uold[celli] + alpha[celli] * G);
     }
   }
   tUEqn.ref().relax();
@@ -368,11 +376,26 @@ void averagedFlow::correctPressure(fvVectorMatrix& UEqn) {
   U_.correctBoundaryConditions();
 }
 
+// Particles on the springs of their contacts and the fluid that drag ties to them swing together. What comes back late
+// drives that swing where the fluid is light beside the drag of one step; there it comes back slowly, and the drag of a
+// step, which is all that is ever on its way, is hardly missed.
+void averagedFlow::chooseReturned() {
+  coupledFields& c = coupled_();
+  const scalar dt = mesh_.time().deltaTValue();
+  // What was held back is an impulse: a force of the last step's length.
+  c.withheld.primitiveFieldRef() *= mesh_.time().deltaT0Value() / dt;
+  forAll(c.withheld, celli) {
+    const scalar tied = c.exchange[celli] * dt / c.alpha[celli];
+    c.returned[celli] = max(leastReturned, 1 / max(scalar(1), sqr(tied))) * c.withheld[celli];
+  }
+}
+
 void averagedFlow::storeWithheldForce() {
   coupledFields& c = coupled_();
   const vectorField& Uold = U_.oldTime().primitiveField();
   forAll(c.withheld, celli) {
-    c.withheld[celli] = c.exchange[celli] * (U_[celli] - Uold[celli]) - c.imbalance[celli] * U_[celli];
+    c.withheld[celli] +=
+        c.exchange[celli] * (U_[celli] - Uold[celli]) - c.imbalance[celli] * U_[celli] - c.returned[celli];
   }
   c.withheld.correctBoundaryConditions();
 }

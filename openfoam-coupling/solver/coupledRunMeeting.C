@@ -3,7 +3,7 @@
 // One meeting of particles and fluid, on the fluid's side.
 #include "coupledRun.H"
 
-#include "fractionShare.H"
+#include "feedbackShares.H"
 #include "hostGuards.H"
 #include "inputError.H"
 #include "stopwatch.H"
@@ -117,8 +117,9 @@ void coupledRun::follow(const link::Meeting& meeting) {
   requests_.add(meeting, dem_.extents);
 }
 
-// Returns the fluid fraction that this interval leads to.
-scalarField coupledRun::receive(const link::Meeting& meeting, const link::ParticleArrays& particles, bool start) {
+// Returns the fluid fraction that this interval leads to, and which part of the forces owed the particles are told.
+scalarField coupledRun::receive(const link::Meeting& meeting, const link::ParticleArrays& particles, bool start,
+                                scalarField& forceShare) {
   scalarField drag;
   vectorField force;
   scalarField& solid = solid_;
@@ -130,10 +131,10 @@ scalarField coupledRun::receive(const link::Meeting& meeting, const link::Partic
     flow_->exchange().primitiveFieldRef() = drag / flow_->rho();
     flow_->exchange().correctBoundaryConditions();
   }
-  if (start)
-    return 1.0 - solid;
-  const scalar density = meeting.totals.volume > 0 ? meeting.totals.mass / meeting.totals.volume : 1.0;
-  const scalar share = shareOfNewFraction(solid, wantedDrag, density, meeting.elapsed);
+  const scalar density = meeting.totals.volume > 0 ? meeting.totals.mass / meeting.totals.volume : flow_->rho();
+  const feedbackLoads loads(solid, wantedDrag, density, flow_->rho(), meeting.elapsed);
+  forceShare = loads.force();
+  const scalar share = start ? 1.0 : loads.fraction();
   const scalarField& before = flow_->alpha().primitiveField();
   return share < 1 ? scalarField(before + share * (1.0 - solid - before)) : scalarField(1.0 - solid);
 }
@@ -177,7 +178,8 @@ int coupledRun::meet(const link::Meeting& meeting, const link::ParticleArrays& p
 
   const scalarField before(flow_->alpha().primitiveField());
   const bool start = first && time_.value() <= SMALL;
-  const scalarField after(receive(meeting, particles, start));
+  scalarField forceShare;
+  const scalarField after(receive(meeting, particles, start, forceShare));
   setFraction(before, after, 1 - left / interval_);
   if (start)
     flow_->resetFractionHistory();
@@ -192,7 +194,10 @@ int coupledRun::meet(const link::Meeting& meeting, const link::ParticleArrays& p
   fields.velocity = &flow_->U();
   fields.fraction = &flow_->alpha();
   told.complete(flow_->alpha(), time_.deltaTValue() / interval_, fields);
+  fields.share = &forceShare;
   exchange_->sample(fields, particles, samples);
+  if (advances)
+    flow_->takeBack(exchange_->untold() * (interval_ / (time_.deltaTValue() * flow_->rho())));
   seconds.exchange += watch.lap();
   report_->add(*flow_, *exchange_, meeting, seconds, Zero);
   if (due)

@@ -132,15 +132,14 @@ double couplingReport::pressureDrop(const averagedFlow& flow) const {
 }
 
 // What is on its way from one side to the other counts: the force that semi-implicit drag held back, and the pressure
-// force that the particles receive until the next meeting.
+// and viscous forces that the particles receive until the next meeting or are still owed.
 vector couplingReport::totalMomentum(averagedFlow& flow, const exchange::particleExchange& exchange,
                                      const link::Meeting& meeting) const {
   const scalar step = mesh_.time().deltaTValue();
   const vectorField& withheld = flow.withheldForce().primitiveField();
   const vectorField perVolume(flow.alpha().primitiveField() * flow.U().primitiveField() + step * withheld);
   const vector fluid(flow.rho() * gSum(vectorField(mesh_.V() * perVolume)));
-  return vectorOf(meeting.totals.momentum) + fluid -
-         interval_ * vectorOf(exchange.balance().particlePressureForce.data());
+  return vectorOf(meeting.totals.momentum) + fluid + interval_ * vectorOf(exchange.balance().pendingForce.data());
 }
 
 couplingReport::Bed couplingReport::bed(const volScalarField& alpha) const {

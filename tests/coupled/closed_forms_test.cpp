@@ -18,6 +18,7 @@ const double kVolume = M_PI / 6 * std::pow(kDiameter, 3);
 
 struct Mud {
   double tau0, k, n;
+  double muY = 100; ///< cap of the viscosity [Pa s]
 
   /// Eq (20) to (23) without alpha: force on a sphere at this slip [N].
   double force(double slip, double sphericity = 1) const {
@@ -44,7 +45,7 @@ struct Mud {
   std::string foam() const {
     std::ostringstream text;
     text << "transportModel HerschelBulkleyCapped; HerschelBulkleyCappedCoeffs { tau0 " << tau0 << "; k " << k << "; n "
-         << n << "; muY 100; }";
+         << n << "; muY " << muY << "; }";
     return text.str();
   }
 };
@@ -87,14 +88,14 @@ BoxCase lattice(double solid, const Mud& mud, double superficial) {
   return box;
 }
 
-/// Terminal velocity of one sphere in a large box of mud at rest.
-double fall(const Mud& mud, const std::string& name, double step = 1e-2, int steps = 3000) {
+/// One particle of the sphere's volume in a large box of mud at rest, `across` cells wide.
+Outcome falling(const Mud& mud, const std::string& name, double step, int steps, double sphericity, int across) {
   BoxCase box;
   const double wide = 0.24, high = 0.48;
   box.size[0] = box.size[1] = wide;
   box.size[2] = high;
-  box.cells[0] = box.cells[1] = 12;
-  box.cells[2] = 24;
+  box.cells[0] = box.cells[1] = across;
+  box.cells[2] = 2 * across;
   for (bool& periodic : box.periodic)
     periodic = false;
   box.rheology = mud.foam();
@@ -102,13 +103,23 @@ double fall(const Mud& mud, const std::string& name, double step = 1e-2, int ste
   box.tolerance = 1e-7;
   box.coupling = "length 0.05;";
   box.script = script_head(box, 2e-4, kWeight) + sphere(0.5 * wide, 0.5 * wide, 0.4) + kSize + "fix mud all " +
-               mud.dem() + meets(int(std::lround(step / 2e-4)), steps);
-  const Outcome outcome = run(box, name);
+               mud.dem() + " sphericity " + std::to_string(sphericity) + meets(int(std::lround(step / 2e-4)), steps);
+  return run(box, name);
+}
+
+/// Its terminal velocity.
+double fall(const Mud& mud, const std::string& name, double sphericity = 1, int across = 12) {
+  const Outcome outcome = falling(mud, name, 1e-2, 3000, sphericity, across);
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   return outcome.status == 0 ? outcome.last("fastest_particle") : 0;
 }
 
 } // namespace
+
+TEST(CoupledClosedForms, TerminalVelocityInANewtonianFluid) {
+  const Mud newtonian{0, 0.01, 1};
+  EXPECT_NEAR(fall(newtonian, "fall_newtonian"), newtonian.slip(1), 0.02 * newtonian.slip(1));
+}
 
 TEST(CoupledClosedForms, TerminalVelocityInAPowerLawFluid) {
   EXPECT_NEAR(kPowerLaw.slip(1), 0.283247422422, 1e-9);
@@ -120,9 +131,43 @@ TEST(CoupledClosedForms, TerminalVelocityInAHerschelBulkleyFluid) {
   EXPECT_NEAR(fall({2, 0.28, 0.65}, "fall_yield_stress_2"), 0.159555286524, 0.02 * 0.159555286524);
 }
 
+// The shapes of Table 1, by their sphericities; the sphere has tests of its own above.
+TEST(CoupledClosedForms, TerminalVelocityOfEachSphericity) {
+  constexpr int kAcross = 8;
+  const struct {
+    const char* name;
+    Mud mud;
+  } fluids[] = {{"newtonian", {0, 0.01, 1}}, {"power_law", kPowerLaw}, {"yield_stress", {1, 0.28, 0.65}}};
+  ASSERT_NEAR(kPowerLaw.slip(1, .91), .249634022766, 1e-9);
+  ASSERT_NEAR(kPowerLaw.slip(1, .85), .227561833356, 1e-9);
+  for (const auto& fluid : fluids)
+    for (const double sphericity : {.91, .87, .85, .68, .75, .789}) {
+      const std::string name = std::string("fall_") + fluid.name + "_" + std::to_string(sphericity);
+      const double expected = fluid.mud.slip(1, sphericity);
+      EXPECT_NEAR(fall(fluid.mud, name, sphericity, kAcross), expected, 0.02 * expected) << name;
+    }
+}
+
+// Held is held exactly: no slip, no swing. What is left is the creep of the fluid itself under the weight, below its
+// cap of viscosity, steady and inversely proportional to that cap.
 TEST(CoupledClosedForms, AYieldStressAboveTheLimitHoldsTheParticle) {
-  // The fluid itself creeps with its cap of viscosity under the weight.
-  EXPECT_LT(fall({5.2, 0.28, 0.65}, "held", 1e-3, 500), 1e-4);
+  const double creep = 1.69e-5, cap = 100;
+  for (const double step : {1e-3, 1e-2})
+    for (const double muY : {cap, 1e4}) {
+      Mud mud{5.2, 0.28, 0.65};
+      mud.muY = muY;
+      std::ostringstream name;
+      name << "held_" << step << '_' << muY;
+      const Outcome outcome = falling(mud, name.str(), step, 2000, 1, 8);
+      ASSERT_EQ(outcome.status, 0) << outcome.text;
+      double least = 1, most = 0;
+      for (std::size_t i = 3 * outcome.rows.size() / 4; i < outcome.rows.size(); ++i) {
+        least = std::min(least, outcome.rows[i].at("fastest_particle"));
+        most = std::max(most, outcome.rows[i].at("fastest_particle"));
+      }
+      EXPECT_NEAR(most, creep * cap / muY, 0.1 * creep * cap / muY) << name.str();
+      EXPECT_LT(most - least, 0.002 * most) << name.str() << ": it swings";
+    }
 }
 
 TEST(CoupledClosedForms, PressureDropOfABed) {
