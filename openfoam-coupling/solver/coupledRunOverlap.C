@@ -83,7 +83,8 @@ int coupledRun::meetAhead(const link::Meeting& meeting, const link::ParticleArra
   fields.fraction = &flow_->alpha();
   const scalarField assumedSolid(solid_);
   const bool start = first && time_.value() <= SMALL;
-  // What the flow gives reaches the particles an interval later still: it is told as it is (docs/couplingProperties.md).
+  // What the flow gives reaches the particles an interval later still: it is told as it is
+  // (docs/couplingProperties.md).
   scalarField unused;
   overlap_.after = receive(meeting, particles, start, unused);
   if (start) {
