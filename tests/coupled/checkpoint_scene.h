@@ -25,8 +25,9 @@ inline BoxCase stirred_box(const std::string& link, int steps, bool clusters, bo
   std::string beginning, bodies;
   for (int i = 0; i < 32; ++i) {
     const std::string tag = std::to_string(i + 1);
+    const int layer = i / 16;
     beginning += "create_atoms 1 single " + std::to_string(0.0045 + 0.009 * (i % 4)) + ' ' +
-                 std::to_string(0.0045 + 0.009 * (i / 4 % 4)) + ' ' + std::to_string(0.0042 + 0.0085 * (i / 16)) +
+                 std::to_string(0.0045 + 0.009 * (i / 4 % 4)) + ' ' + std::to_string(0.0042 + 0.0085 * layer) +
                  " units box\n";
     bodies += "set atom " + tag + " vx " + std::to_string(0.4 * std::sin(7 * i)) + " vy " +
               std::to_string(0.4 * std::cos(5 * i)) + " vz " + std::to_string(-0.3 + 0.1 * std::sin(3 * i)) + '\n';

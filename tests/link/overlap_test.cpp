@@ -31,9 +31,11 @@ BoxCase thrown(const std::string& name, int interval, const std::string& overlap
                  socket_address(name) + "\"; wait 60;";
   std::ostringstream script;
   script << script_head(box, kDemStep);
-  for (int i = 0; i < 8; ++i)
+  for (int i = 0; i < 8; ++i) {
+    const int layer = i / 4;
     script << "create_atoms 1 single " << 0.012 + 0.03 * (i % 2) << ' ' << 0.014 + 0.03 * (i / 2 % 2) << ' '
-           << 0.016 + 0.03 * (i / 4) << " units box\n";
+           << 0.016 + 0.03 * layer << " units box\n";
+  }
   script << "set group all diameter 6.35e-3 density 2619\n";
   for (int i = 0; i < 8; ++i)
     script << "set atom " << i + 1 << " vx " << 0.2 + 0.03 * i << " vy " << 0.02 * i - 0.05 << " vz 0.1\n";
