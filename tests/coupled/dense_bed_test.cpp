@@ -33,9 +33,10 @@ Outcome pushed_bed(double viscosity, double step, int meetings, const std::strin
   for (int layer = 0; layer < kLayers; ++layer)
     for (int i = 0; i < kWide * kWide; ++i) {
       const double shift = layer % 2 ? 0.5 : 0.0;
+      const int row = i / kWide;
       script << "create_atoms 1 single " << std::fmod(i % kWide + 0.5 + shift, kWide) * kDiameter << ' '
-             << std::fmod(i / kWide + 0.5 + shift, kWide) * kDiameter << ' '
-             << (layer * std::sqrt(0.5) + 0.5) * kDiameter << " units box\n";
+             << std::fmod(row + 0.5 + shift, kWide) * kDiameter << ' ' << (layer * std::sqrt(0.5) + 0.5) * kDiameter
+             << " units box\n";
     }
   const int every = static_cast<int>(std::lround(step / kDemStep));
   script << "set group all diameter 6.35e-3 density 2619\n"
