@@ -3,6 +3,7 @@
 // Which sub-spheres of two near bodies can touch soon: the search, and the list that it leaves behind.
 #pragma once
 
+#include "cluster/body_state.h"
 #include "cluster/surface_spheres.h"
 
 #include <cmath>
@@ -23,25 +24,11 @@ inline int contact_sphere_b(int id) {
 }
 constexpr int max_surface_spheres = 1 << 15;
 
-/// Four floats that the compiler keeps in one register, on any machine.
-typedef float Float4 __attribute__((vector_size(16)));
-
-/// Rotation body to world of one body, by rows; the fourth lane is 0. Single precision.
-struct BodyFrame {
-  BodyFrame() = default;
-  explicit BodyFrame(const double* rotation) {
-    for (int k = 0; k < 3; ++k)
-      row[k] = Float4{static_cast<float>(rotation[3 * k]), static_cast<float>(rotation[3 * k + 1]),
-                      static_cast<float>(rotation[3 * k + 2]), 0.f};
-  }
-  Float4 row[3];
-};
-
 /// Where body B lies in the body frame of A. Single precision: this only preselects.
 struct RelativePose {
   RelativePose() = default;
   /// offset: from A's centre to B's [m], world frame.
-  RelativePose(const BodyFrame& a, const BodyFrame& b, const double* offset) {
+  RelativePose(const BodyState& a, const BodyState& b, const double* offset) {
     Float4 full[3];
     for (int k = 0; k < 3; ++k) {
       full[k] = b.row[k];

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace eccentra::cluster {
 
@@ -11,12 +13,9 @@ namespace eccentra::cluster {
 enum class DampingLaw { stock, paper };
 
 /// Contacts between sub-spheres of bodies A and B, as structure of arrays; world frame, SI. Everything is seen from A:
-/// B's torque about its own centre of mass, at `offset` from A's, is offset x force - torque. Rows are short, so that
-/// all of them stay in the first-level cache and on few pages, and an odd number of cache lines long: strides near
-/// powers of two alias.
-template <int room> struct alignas(64) ContactBlockOf {
-  static constexpr int capacity = room;
-  using Row = double[capacity];
+/// B's torque about its own centre of mass, at `offset` from A's, is offset x force - torque.
+template <class RowType> struct ContactRows {
+  using Row = RowType;
 
   // In: geometry and state.
   Row separation[3];                      ///< from the centre of B's sub-sphere to that of A's [m]
@@ -40,9 +39,34 @@ template <int room> struct alignas(64) ContactBlockOf {
   Row torque[3];      ///< on A about its centre of mass [N m]
 };
 
-using ContactBlock = ContactBlockOf<72>;
-/// For a pair of bodies with more contacts than that: the most that one pair may have.
-using LargeContactBlock = ContactBlockOf<520>;
+/// Vector loops run over whole multiples of this, so that rounding does not depend on a contact's place in its block.
+constexpr int contact_width = 8;
+
+/// Rows are short, so that all of them stay in the first-level cache and on few pages, and an odd number of cache lines
+/// long: strides near powers of two alias.
+struct alignas(64) ContactBlock : ContactRows<double[72]> {
+  /// What is left over takes whole vectors from any place on.
+  static constexpr int capacity = 64;
+};
+
+/// Room for a pair of bodies with more contacts than that, however many.
+class LargeContactBlock : public ContactRows<double*> {
+ public:
+  /// Makes room for `count` contacts; what was in the block is lost.
+  void reserve(int count) {
+    constexpr int rows = sizeof(ContactRows<double*>) / sizeof(double*);
+    const std::size_t length = (count / contact_width + 2) * contact_width;
+    if (values_.size() >= rows * length)
+      return;
+    values_.assign(rows * length, 0.);
+    auto* row = reinterpret_cast<double**>(static_cast<ContactRows<double*>*>(this));
+    for (int k = 0; k < rows; ++k)
+      row[k] = values_.data() + k * length;
+  }
+
+ private:
+  std::vector<double> values_;
+};
 
 /// First pass: normal, overlap and contact radius of contacts 0..n-1. Overlaps must be >= 0.
 template <class Block> inline void contact_geometry(Block& c, int n) {

@@ -27,7 +27,11 @@ NearPairs::NearPairs(LAMMPS* lmp, FixBodies& bodies, FixContactHistory& history)
     : Pointers(lmp), bodies_(bodies), history_(history) {}
 
 void NearPairs::rebuild(const NeighList& list) {
+  std::size_t count = 0;
+  for (int n = 0; n < list.inum; ++n)
+    count += list.numneigh[list.ilist[n]];
   pairs.clear();
+  pairs.reserve(count); // growing would need room for twice as many
   candidates.clear();
   const int* tag = atom->tag;
   const double* radius = atom->radius;
@@ -50,8 +54,9 @@ void NearPairs::rebuild(const NeighList& list) {
       p.bound_b = static_cast<float>(radius[p.b]);
       p.searched = false;
       p.skin = 0;
-      p.stale = 0;
-      p.range = radius[p.a] + radius[p.b];
+      p.range = static_cast<float>(radius[p.a] + radius[p.b]);
+      p.largest_reach =
+          static_cast<float>(p.surface_a->largest_radius + p.extra_a + p.surface_b->largest_radius + p.extra_b);
       p.candidate_first = p.candidate_count = p.candidate_room = 0;
       pairs.push_back(p);
     }
@@ -71,30 +76,101 @@ void NearPairs::rebuild(const NeighList& list) {
     return p.a < q.a;
   });
   wakes.clear();
-  for (const NearPair& p : pairs)
-    wakes.push_back({p.a, p.b, 0});
+  idle.assign(pairs.size(), 0);
+  wakes.reserve(pairs.size());
+  for (const NearPair& p : pairs) {
+    wakes.emplace_back();
+    wakes.back().a = p.a;
+    wakes.back().b = p.b;
+  }
   local_at_build_ = atom->nlocal;
-  path_.assign(atom->nlocal + atom->nghost, 0.);
-  last_step_.resize(path_.size());
-  frame_.resize(path_.size());
+  const int bodies = atom->nlocal + atom->nghost;
+  time_ = 0;
+  change_.assign(bodies, {0, 0});
+  bodies_now_.resize(bodies);
+  forces_.resize(bodies);
+  new_list_ = true;
   take_history();
   live_ = true;
 }
 
-void NearPairs::update_bodies(double dt) {
-  const double *v = atom->v[0], *omega = atom->omega[0], *radius = atom->radius;
-  const int bodies = static_cast<int>(path_.size());
-  for (int i = 0; i < bodies; ++i)
-    if (!bodies_.is_round(i))
-      frame_[i] = BodyFrame(bodies_.rotation(i));
-  double *path = path_.data(), *step = last_step_.data();
-#pragma GCC ivdep
+void NearPairs::update_bodies(double dt, int held_groups) {
+  const double *x = atom->x[0], *v = atom->v[0], *omega = atom->omega[0]; // LIGGGHTS keeps rows one after the other
+  const int bodies = static_cast<int>(bodies_now_.size());
+  time_ += static_cast<float>(dt);
   for (int i = 0; i < bodies; ++i) {
-    const double *u = v + 3 * i, *w = omega + 3 * i;
-    step[i] = dt * (std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) +
-                    radius[i] * std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]));
-    path[i] += step[i];
+    BodyState& body = bodies_now_[i];
+    const SurfaceSpheres& surface = bodies_.shapes().surface(bodies_.shape_id(i));
+    if (new_list_) {
+      body = BodyState();
+      body.mass = atom->rmass[i];
+      body.type = atom->type[i];
+      body.held = (atom->mask[i] & held_groups) != 0;
+      for (int k = 0; k < 3; ++k) {
+        body.inverse_inertia[k] = surface.inverse_inertia[k];
+        body.v[k] = v[3 * i + k];
+        body.omega[k] = omega[3 * i + k];
+      }
+    }
+    double dv = 0, dw = 0, ww = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double u = v[3 * i + k], w = omega[3 * i + k];
+      dv += (u - body.v[k]) * (u - body.v[k]);
+      dw += (w - body.omega[k]) * (w - body.omega[k]);
+      ww += w * w;
+      body.x[k] = x[3 * i + k];
+      body.v[k] = u;
+      body.omega[k] = w;
+    }
+    change_[i].speed += static_cast<float>(std::sqrt(dv));
+    change_[i].turning += static_cast<float>(std::sqrt(dw) + ww * dt);
+    if (surface.single_at_centre)
+      continue;
+    body.turn(bodies_.rotation(i));
+    if (!surface.equal_moments)
+      body.turn_inertia(surface.inverse_inertia);
   }
+  new_list_ = false;
+  std::fill(forces_.begin(), forces_.end(), BodyForce());
+}
+
+void NearPairs::add_forces() const {
+  for (int i = 0; i < atom->nlocal; ++i)
+    for (int k = 0; k < 3; ++k) {
+      atom->f[i][k] += forces_[i].force[k];
+      atom->torque[i][k] += forces_[i].torque[k];
+    }
+}
+
+// The velocity of B's matter at r from B's centre, in a frame that moves and turns with A, is u + (w_B - w_A) x r with
+// u = v_B - v_A - w_A x d, d from A's centre to B's. Two round bodies need no turning frame: u = v_B - v_A.
+double NearPairs::relative_speed(const NearPair& p, const double* offset) const {
+  const BodyState &a = bodies_now_[p.a], &b = bodies_now_[p.b];
+  const double *va = a.v, *vb = b.v, *wa = a.omega, *wb = b.omega;
+  const double v[3] = {vb[0] - va[0], vb[1] - va[1], vb[2] - va[2]};
+  if (p.direct)
+    return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  const double u[3] = {v[0] - (wa[1] * offset[2] - wa[2] * offset[1]), v[1] - (wa[2] * offset[0] - wa[0] * offset[2]),
+                       v[2] - (wa[0] * offset[1] - wa[1] * offset[0])};
+  const double w[3] = {wb[0] - wa[0], wb[1] - wa[1], wb[2] - wa[2]};
+  return std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) +
+         p.bound_b * std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+}
+
+// d|u|/dt <= |a_A| + |a_B| + (|alpha_A| + w_A^2) |d|: the rest of du/dt, w_A x u, only turns u.
+void NearPairs::note_look(int pair, const double* offset, double room, bool may_rest) {
+  const NearPair& p = pairs[pair];
+  PairWake& wake = wakes[pair];
+  idle[pair] = may_rest;
+  wake.since = time_;
+  wake.speed = static_cast<float>(relative_speed(p, offset));
+  wake.changed = change_[p.a].speed + change_[p.b].speed;
+  wake.turned = change_[p.a].turning + change_[p.b].turning;
+  wake.reach = 0;
+  if (!p.direct)
+    wake.reach = static_cast<float>(std::sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]) +
+                                    room + p.bound_b);
+  wake.room = static_cast<float>(room);
 }
 
 void NearPairs::take_history() {

@@ -9,6 +9,7 @@
 
 #include "pointers.h"
 
+#include <limits>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -18,27 +19,43 @@ class NeighList;
 namespace eccentra::cluster {
 
 /// Two bodies near each other. A has the lower tag, so that every rank that meets the pair computes the same.
-struct NearPair {
+struct alignas(64) NearPair {
+  // What every step asks for, in one cache line.
   int a, b; ///< local or ghost indices
   int tag_a, tag_b;
   const SurfaceSpheres *surface_a, *surface_b;
   double extra_a, extra_b; ///< added to the sub-spheres' radii (plain spheres) [m]
-  double range;            ///< sum of the bounding radii [m]
-  double stale;            ///< length of both bodies' paths up to which the candidates are all that can touch [m]
   int candidate_first;     ///< into the candidate store
   int candidate_count;
+  float skin;    ///< relative motion since the last search that the candidates allow [m]
+  bool direct;   ///< two single spheres: nothing to search
+  bool searched; ///< there has been a search
+  // The rest.
+  RelativePose pose;   ///< at the last search
+  float range;         ///< sum of the bounding radii [m]
+  float largest_reach; ///< largest sum of the radii of two sub-spheres [m]
+  float bound_b;       ///< bounding radius of B [m]
   int candidate_room;
-  bool direct;       ///< two single spheres: nothing to search
-  bool searched;     ///< there has been a search
-  float bound_b;     ///< bounding radius of B [m]
-  float skin;        ///< relative motion since the last search that the candidates allow [m]
-  RelativePose pose; ///< at the last search
 };
+static_assert(sizeof(NearPair) == 128, "two cache lines");
 
-/// What tells whether a pair needs a look at all; apart from the rest, as most pairs do not and all are asked.
+/// What tells whether a pair needs a look at all; apart from the rest and short, as most pairs do not and all are
+/// asked. At the last look at time `since` matter of B moved past A's by at most `speed`; until now none has moved
+/// farther than (time - since) (speed + both bodies' changes of velocity + both bodies' changes of turning * reach).
+/// Single precision: the margin for the curvature of paths is much wider.
 struct PairWake {
   int a, b;
-  double quiet; ///< length of both bodies' paths before which they cannot touch [m]
+  float since = 0;               ///< [s]
+  float speed = 0;               ///< [m/s]
+  float changed = 0, turned = 0; ///< sums of both bodies' VelocityChange then
+  float reach = 0;               ///< from A's centre to the farthest of B's matter [m]
+  float room = -1;               ///< [m]; idle: nothing touches within it; else the candidates are all that can touch
+};
+
+/// What the velocities of a body have done since the list was made: sums over the steps of |change of v| [m/s], and of
+/// |change of omega| + omega^2 dt [rad/s]. The latter is what a point at rest in a turning frame needs to stay there.
+struct VelocityChange {
+  float speed, turning;
 };
 
 /// Contacts of one step in the order of the pairs, ids ascending within a pair.
@@ -65,19 +82,54 @@ class NearPairs : protected LAMMPS_NS::Pointers {
 
   std::vector<NearPair> pairs;
   std::vector<PairWake> wakes; ///< one per pair
+  std::vector<char> idle;      ///< one per pair
   ContactList contacts, next;  ///< of the last step; the one under construction
   CandidateStore candidates;
 
-  /// Once a step: frames of all bodies, ghosts as well, and their paths longer by dt (|v| + R |omega|): no matter of a
-  /// body has moved farther.
-  void update_bodies(double dt);
-  const BodyFrame& frame(int i) const { return frame_[i]; }
+  /// Once a step of `dt` [s]: states of all bodies, ghosts as well, and changes of their velocities; no forces.
+  void update_bodies(double dt, int held_groups);
+  const BodyState& body(int i) const { return bodies_now_[i]; }
   /// Local and ghost atoms, as of the list.
-  int body_count() const { return static_cast<int>(path_.size()); }
-  /// Length of the path of local or ghost atom i since the list was made [m].
-  double path(int i) const { return path_[i]; }
-  /// By how much it grew in this step [m].
-  double last_step(int i) const { return last_step_[i]; }
+  int body_count() const { return static_cast<int>(bodies_now_.size()); }
+  /// True for a body without any velocity in this step.
+  bool at_rest(int i) const {
+    const BodyState& b = bodies_now_[i];
+    return b.v[0] == 0 && b.v[1] == 0 && b.v[2] == 0 && b.omega[0] == 0 && b.omega[1] == 0 && b.omega[2] == 0;
+  }
+  /// Takes a pair out of the loop over pairs, and back into it.
+  void leave_alone(int pair) {
+    idle[pair] = 1;
+    wakes[pair].room = std::numeric_limits<float>::infinity();
+  }
+  void look_again(int pair) {
+    idle[pair] = 0;
+    wakes[pair].room = -1;
+  }
+  BodyForce& force(int i) { return forces_[i]; }
+  /// Adds the forces to the atoms of this rank.
+  void add_forces() const;
+  /// Asks for the data of a pair ahead of its turn.
+  void prefetch(int pair) const {
+    const char *p = reinterpret_cast<const char*>(&pairs[pair]),
+               *a = reinterpret_cast<const char*>(&bodies_now_[wakes[pair].a]),
+               *b = reinterpret_cast<const char*>(&bodies_now_[wakes[pair].b]);
+    constexpr int line = 64;
+    __builtin_prefetch(p);
+    for (int k = 0; k < 4; ++k) {
+      __builtin_prefetch(a + k * line);
+      __builtin_prefetch(b + k * line);
+    }
+  }
+  /// How far at most matter of B has moved past A since the last look at the pair [m].
+  float moved_since_look(const PairWake& wake) const {
+    const VelocityChange &a = change_[wake.a], &b = change_[wake.b];
+    return (time_ - wake.since) *
+           (wake.speed + (a.speed + b.speed - wake.changed) + (a.turning + b.turning - wake.turned) * wake.reach);
+  }
+  /// Notes a look at the pair that holds for the next `room` [m] of relative motion.
+  void note_look(int pair, const double* offset, double room, bool idle);
+  /// Speed at most of B's matter past A's [m/s].
+  double relative_speed(const NearPair& pair, const double* offset) const;
 
   /// Makes `next` the contacts of the last step.
   void accept() { std::swap(contacts, next); }
@@ -95,8 +147,11 @@ class NearPairs : protected LAMMPS_NS::Pointers {
   FixContactHistory& history_;
   bool live_ = false;
   int local_at_build_ = 0;
-  std::vector<double> path_, last_step_;
-  std::vector<BodyFrame> frame_;
+  float time_ = 0; ///< since the list was made [s]
+  bool new_list_ = true;
+  std::vector<VelocityChange> change_;
+  std::vector<BodyState> bodies_now_;
+  std::vector<BodyForce> forces_;
 };
 
 } // namespace eccentra::cluster

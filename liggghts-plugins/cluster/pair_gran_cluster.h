@@ -5,6 +5,7 @@
 
 #include "cluster/contact_law.h"
 #include "cluster/near_pairs.h"
+#include "cluster/off_centre.h"
 #include "cluster/resting_pairs.h"
 
 #include <mpi.h>
@@ -52,26 +53,39 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
  private:
   struct PairInBlock {
     int a, b;
-    int first, last;  ///< contacts in the block
-    double offset[3]; ///< from A's centre to B's [m]
+    int first, last;         ///< contacts in the block
+    int old_first, old_last; ///< contacts of the last step
+  };
+  /// Contacts found among candidates, and the least (distance^2 - (sum of radii)^2) of them all [m2].
+  struct Gathered {
+    int count;
+    double least;
   };
 
-  int pair_contacts(NearPair& p, const double* offset, double path, int old_first, int old_last);
-  double quiet_until(const NearPair& p, const double* offset, double path) const;
-  void search_candidates(NearPair& p, const RelativePose& pose, const double* offset, double path);
-  int gather(const NearPair& p, const double* offset, const int* ids, int count, int old_first, int old_last);
-  template <class Block>
-  int gather_into(Block& block, const NearPair& p, const double* offset, const int* ids, int count, int old_first,
-                  int old_last);
+  // The loop over pairs (pair_gran_cluster_forces.cpp).
+  int pair_contacts(int number, bool fresh, const double* offset, int old_first, int old_last);
+  void may_idle(int number, const double* offset, double gap);
+  void search_candidates(NearPair& p, const RelativePose& pose, const double* offset);
   RelativePose pose_of(const NearPair& p, const double* offset) const;
+
+  // Pairs that rest (pair_gran_cluster_rest.cpp).
   void rest();
   RestingPairs::Kept evaluate_alone(int n);
   void add_resting_forces();
+
+  // Contacts in blocks (pair_gran_cluster_blocks.cpp).
+  Gathered gather(const NearPair& p, const double* offset, const int* ids, int count, int old_first, int old_last);
+  template <class Block>
+  Gathered gather_into(Block& block, const NearPair& p, const double* offset, const int* ids, int count, int old_first,
+                       int old_last);
+  template <class Block>
+  void add_pair(Block& block, const NearPair& p, const double* offset, int last, int old_first, int old_last);
+  void flush();
   template <class Block> void flush(Block& block);
+  template <class Block> void recall_history(Block& block);
   template <DampingLaw law, class Block> void compute_block(Block& block, int padded);
   template <class Block> void share_damping(Block& block, int padded);
-  template <class Block> void weigh_off_centre(Block& block);
-  template <class Block> void scatter(const Block& block, const PairInBlock& p);
+  template <class Block> void scatter(const Block& block, int pair);
 
   ClusterContactWords words_;
   FixBodies* bodies_ = nullptr;
@@ -79,12 +93,24 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   std::unique_ptr<RestingPairs> resting_; ///< null unless bodies may sleep
   CandidateSearch search_;
   std::vector<int> hits_;
+  std::vector<int> awake_; ///< pairs that need a look; ~n where the candidates are no longer all that can touch
   PairInBlock in_block_[ContactBlock::capacity];
+  PairBlock pairs_ = {};
   int pairs_in_block_ = 0;
   ContactBlock block_ = {};
   std::unique_ptr<LargeContactBlock> large_block_; ///< made when a pair needs it
   int filled_ = 0;                                 ///< contacts in the block
-  int block_ids_[LargeContactBlock::capacity];
+  std::vector<int> block_ids_;                     ///< their contact_id
+  std::vector<int> block_pair_;                    ///< and their pair in the block
+  /// Materials and mass of the contacts in the block, where all of them have the same.
+  struct Common {
+    double mass, youngs, shear, damping, friction;
+    bool operator==(const Common& c) const {
+      return mass == c.mass && youngs == c.youngs && shear == c.shear && damping == c.damping && friction == c.friction;
+    }
+  };
+  Common common_ = {};
+  bool common_everywhere_ = false; ///< all rows of the block are filled with it
   bool advance_ = false;
   double** youngs_ = nullptr;
   double** shear_ = nullptr;

@@ -5,7 +5,7 @@
 
 #include "atom.h"
 
-#include <algorithm>
+#include <utility>
 
 namespace eccentra::cluster {
 
@@ -26,37 +26,32 @@ void PairGranCluster::rest() {
 
 /// Contacts and forces of pair n by itself; near_->next and the forces of its bodies are as before.
 RestingPairs::Kept PairGranCluster::evaluate_alone(int n) {
-  NearPair& p = near_->pairs[n];
+  const NearPair& p = near_->pairs[n];
   RestingPairs::Kept kept;
   kept.pair = n;
-  const int bodies[2] = {p.a, p.b};
-  std::array<double, 6> before[2];
   for (int k = 0; k < 3; ++k)
-    kept.offset[k] = atom->x[p.b][k] - atom->x[p.a][k];
-  for (int s = 0; s < 2; ++s) {
-    double *f = atom->f[bodies[s]], *t = atom->torque[bodies[s]];
-    std::copy(f, f + 3, before[s].data());
-    std::copy(t, t + 3, before[s].data() + 3);
-    std::fill(f, f + 3, 0.);
-    std::fill(t, t + 3, 0.);
-  }
+    kept.offset[k] = near_->body(p.b).x[k] - near_->body(p.a).x[k];
+  const int bodies[2] = {p.a, p.b};
+  BodyForce before[2];
+  for (int s = 0; s < 2; ++s)
+    before[s] = std::exchange(near_->force(bodies[s]), BodyForce());
   ContactList& next = near_->next;
   const ContactList& old = near_->contacts;
-  const double path = near_->path(p.a) + near_->path(p.b);
-  const int count = pair_contacts(p, kept.offset, path, old.first[n], old.first[n + 1]);
-  flush(block_);
+  const int count = pair_contacts(n, false, kept.offset, old.first[n], old.first[n + 1]);
+  flush();
+  near_->leave_alone(n);
   for (int m = next.size() - count; m < next.size(); ++m)
     kept.contacts.push_back({next.id[m], {next.displacement[0][m], next.displacement[1][m], next.displacement[2][m]}});
   next.id.resize(next.id.size() - count);
   for (auto& d : next.displacement)
     d.resize(d.size() - count);
   for (int s = 0; s < 2; ++s) {
-    double *f = atom->f[bodies[s]], *t = atom->torque[bodies[s]];
+    const BodyForce acting = std::exchange(near_->force(bodies[s]), before[s]);
     std::array<double, 6>& on = s == 0 ? kept.on_a : kept.on_b;
-    std::copy(f, f + 3, on.data());
-    std::copy(t, t + 3, on.data() + 3);
-    std::copy(before[s].data(), before[s].data() + 3, f);
-    std::copy(before[s].data() + 3, before[s].data() + 6, t);
+    for (int k = 0; k < 3; ++k) {
+      on[k] = acting.force[k];
+      on[3 + k] = acting.torque[k];
+    }
   }
   return kept;
 }

@@ -4,7 +4,6 @@
 #include "cluster/resting_pairs.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace eccentra::cluster {
 
@@ -46,7 +45,7 @@ const std::vector<int>& RestingPairs::update(NearPairs& near) {
   woken_.clear();
   fresh_.clear();
   for (int i = 0; i < bodies; ++i) {
-    const std::uint8_t rests = near.last_step(i) == 0;
+    const std::uint8_t rests = near.at_rest(i);
     if (rests != rests_[i]) {
       rests_[i] = rests;
       changed_.push_back(i);
@@ -58,10 +57,10 @@ const std::vector<int>& RestingPairs::update(NearPairs& near) {
       const bool rest = rests_[near.pairs[n].a] && rests_[near.pairs[n].b];
       if (rest && kept_of_pair_[n] == moves) {
         kept_of_pair_[n] = due;
-        near.wakes[n].quiet = std::numeric_limits<double>::infinity();
+        near.leave_alone(n);
         fresh_.push_back(n);
       } else if (!rest && kept_of_pair_[n] != moves) {
-        near.wakes[n].quiet = 0;
+        near.look_again(n);
         woken_.push_back(n);
       }
     }
@@ -154,7 +153,7 @@ void RestingPairs::release(NearPairs& near) {
   woken_.clear();
   for (std::size_t n = 0; n < kept_of_pair_.size(); ++n)
     if (kept_of_pair_[n] != moves) {
-      near.wakes[n].quiet = 0;
+      near.look_again(static_cast<int>(n));
       woken_.push_back(static_cast<int>(n));
     }
   give_back(near);

@@ -78,10 +78,11 @@ template <class Block> inline void add_shared_pair(Block& c, int j, int k) {
 
 /// ... and makes them the contacts' shares of damping.
 template <class Block> inline void finish_shared_sums(Block& c, int n) {
+  constexpr double tiny = 1e-100; // keeps 0/0 out where an overlap rounds to 0
 #pragma GCC ivdep
   for (int m = 0; m < n; ++m) {
     const double stiffness = c.contact_radius[m], sum = c.stiffness_sum[m], work = c.work_sum[m];
-    const double ratio = c.force_sum[m] / sum * std::sqrt(stiffness / work);
+    const double ratio = c.force_sum[m] / (sum + tiny) * std::sqrt(stiffness / (work + tiny));
     c.share[m] = sum > stiffness && work > 0 && ratio < 1 ? ratio : 1;
   }
 }

@@ -39,14 +39,16 @@ void SurfaceSpheres::finish() {
   zf.assign(padded, 0.f);
   rf.assign(padded, 0.f);
   bounding_radius = 0;
-  smallest_radius = r[0];
+  smallest_radius = largest_radius = r[0];
   for (int k = 0; k < count; ++k) {
+    sphere.push_back(Double4{x[k], y[k], z[k], r[k]});
     xf[k] = static_cast<float>(x[k]);
     yf[k] = static_cast<float>(y[k]);
     zf[k] = static_cast<float>(z[k]);
     rf[k] = static_cast<float>(r[k]);
     bounding_radius = std::max(bounding_radius, std::sqrt(x[k] * x[k] + y[k] * y[k] + z[k] * z[k]) + r[k]);
     smallest_radius = std::min(smallest_radius, r[k]);
+    largest_radius = std::max(largest_radius, r[k]);
   }
   constexpr double centred = 1e-9; // of the radius: round-off of a generated shape
   single_at_centre = count == 1 && bounding_radius <= r[0] * (1 + centred);

@@ -3,6 +3,7 @@
 // The sub-spheres of a shape that another body can touch, laid out for vector loops.
 #pragma once
 
+#include "cluster/body_state.h"
 #include "shape/cluster_shape.h"
 
 #include <vector>
@@ -20,9 +21,10 @@ struct SurfaceSpheres {
   int count;                         ///< sub-spheres
   int padded;                        ///< length of the single-precision arrays
   std::vector<double> x, y, z, r;    ///< centres and radii
+  std::vector<Double4> sphere;       ///< the same again, x y z r together
   std::vector<float> xf, yf, zf, rf; ///< the same, padded
   double bounding_radius;            ///< about the centre of mass
-  double smallest_radius;
+  double smallest_radius, largest_radius;
   /// Of the body: 1 over its principal moments of inertia per unit mass [1/m2]; 0 for spheres, whose contacts never
   /// turn them by their normal force.
   double inverse_inertia[3] = {0, 0, 0};

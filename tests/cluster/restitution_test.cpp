@@ -113,18 +113,18 @@ TEST(Restitution, ElasticImpactsKeepEnergy) {
 }
 
 TEST(Restitution, FineFacesTouchAtHundredsOfSubSpheres) {
-  // Two cubes of 11^3, face on face, shifted by half a lattice spacing: 21 neighbours in line along each side.
+  // Two cubes of 13^3, face on face, shifted by half a lattice spacing: 25 contacts in line along each side.
   constexpr double e = 0.9, speed = 0.2, timestep = 2e-7;
   LiggghtsSession session;
   Material material;
   material.restitution = e;
   open_box(session, material);
   use_clusters(session);
-  const shape::ClusterShape cube = shape_of("cube", "1331");
+  const shape::ClusterShape cube = shape_of("cube", "2197");
   double top = 0, spacing = 1;
   for (const auto& s : cube.spheres())
     top = std::max(top, s.centre.z());
-  spacing = 2 * top / 10;
+  spacing = 2 * top / 12;
   const double radius = cube.smallest_radius();
   const double height = 2 * top + std::sqrt(4 * radius * radius - spacing * spacing / 2);
   Start lower, upper;
@@ -140,7 +140,7 @@ TEST(Restitution, FineFacesTouchAtHundredsOfSubSpheres) {
     now = *static_cast<int*>(session.lammps().force->pair->extract("contacts", dim));
     most = std::max(most, now);
   } while (now > 0);
-  EXPECT_EQ(most, 21 * 21);
+  EXPECT_EQ(most, 25 * 25);
   // Each normal leans towards the gap that it fills, so that tangential dampers take a little as well; a damper per
   // contact would leave next to nothing.
   const double returned = (session.atom().v[session.local(2)][2] - session.atom().v[session.local(1)][2]) / speed;

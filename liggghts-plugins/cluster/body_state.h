@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bodies as contacts see them; pure.
+#pragma once
+
+namespace eccentra::cluster {
+
+/// Four numbers that the compiler keeps in one register (or two), on any machine.
+typedef float Float4 __attribute__((vector_size(16)));
+typedef double Double4 __attribute__((vector_size(32)));
+
+/// What a contact asks of a body, together: arrays of positions, velocities, masses ... of which each contact needs one
+/// row cost a cache line each. The orientation is all zero for a round body, whose own nobody sees. Fourth lanes are 0.
+struct alignas(64) BodyState {
+  double x[3];     ///< centre of mass [m]
+  double mass;     ///< [kg]
+  double v[3];     ///< [m/s]
+  int type;        ///< atom type
+  bool held;       ///< cannot move at all
+  double omega[3]; ///< [rad/s]
+  double unused = 0;
+  Double4 column[3] = {};         ///< of the rotation body to world
+  double inverse_inertia[6] = {}; ///< of the inertia tensor per unit mass, world frame: xx yy zz xy xz yz [1/m2]
+  Float4 row[3] = {};             ///< of the rotation, single precision: this only preselects
+
+  /// rotation: row-major, body to world.
+  void turn(const double* rotation) {
+    for (int k = 0; k < 3; ++k) {
+      row[k] = Float4{static_cast<float>(rotation[3 * k]), static_cast<float>(rotation[3 * k + 1]),
+                      static_cast<float>(rotation[3 * k + 2]), 0.f};
+      column[k] = Double4{rotation[k], rotation[3 + k], rotation[6 + k], 0.};
+    }
+  }
+
+  /// inverse_principal: 1 over the principal moments of inertia per unit mass, not all the same; after turn().
+  void turn_inertia(const double* inverse_principal) {
+    const Double4 x_axis = column[0] * inverse_principal[0], y_axis = column[1] * inverse_principal[1],
+                  z_axis = column[2] * inverse_principal[2];
+    constexpr int first[6] = {0, 1, 2, 0, 0, 1}, second[6] = {0, 1, 2, 1, 2, 2};
+    for (int k = 0; k < 6; ++k) {
+      const int i = first[k], j = second[k];
+      inverse_inertia[k] = x_axis[i] * column[0][j] + y_axis[i] * column[1][j] + z_axis[i] * column[2][j];
+    }
+  }
+};
+
+/// Forces on a body that contacts add up; fourth lanes are 0.
+struct alignas(64) BodyForce {
+  Double4 force = {};  ///< [N]
+  Double4 torque = {}; ///< about the centre of mass [N m]
+};
+
+} // namespace eccentra::cluster
