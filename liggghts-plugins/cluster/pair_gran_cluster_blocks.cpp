@@ -6,10 +6,12 @@
 #include "cluster/shared_contacts.h"
 
 #include "atom.h"
+#include "error.h"
 #include "update.h"
 
 #include <algorithm>
 #include <limits>
+#include <string>
 #include <type_traits>
 
 namespace eccentra::cluster {
@@ -22,6 +24,9 @@ namespace {
 constexpr int contacts_per_block = 32;
 /// Up to so many contacts of a pair share damping each with each, more by way of tensors.
 constexpr int shared_each_with_each = 8;
+
+/// Faces of two lattices of spheres touch at up to four neighbours each (cubes) or seven (disks).
+constexpr int interpenetrating = 8;
 
 constexpr int whole_vectors(int count) {
   return (count + contact_width - 1) / contact_width * contact_width;
@@ -36,6 +41,13 @@ PairGranCluster::Gathered PairGranCluster::gather(const NearPair& p, const doubl
     flush();
   if (count <= ContactBlock::capacity)
     return gather_into(block_, p, offset, ids, count, old_first, old_last);
+  const int finer = std::max(p.surface_a->count, p.surface_b->count);
+  if (count > interpenetrating * finer)
+    error->one(FLERR, ("two clusters touch at up to " + std::to_string(count) + " sub-spheres at once, more than " +
+                       std::to_string(interpenetrating) + " for each of the " + std::to_string(finer) +
+                       " at the surface of the finer: they have run into each other: use a smaller time step (see fix "
+                       "timestep/limit)")
+                          .c_str());
   if (!large_block_)
     large_block_ = std::make_unique<LargeContactBlock>();
   large_block_->reserve(count);
