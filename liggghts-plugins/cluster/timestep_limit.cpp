@@ -4,6 +4,7 @@
 #include "cluster/timestep_limit.h"
 
 #include "cluster/bodies.h"
+#include "cluster/eigen_views.h"
 #include "cluster/pair_gran_cluster.h"
 #include "cluster/shared_contacts.h"
 #include "cluster/wall_gran_cluster.h"
@@ -37,10 +38,6 @@ const host::RegisterFix<FixTimestepLimit> record("timestep/limit",
 // A limit that has moved by less than this is not worth another line in the log.
 constexpr double kReportChange = 0.1;
 constexpr double kNever = std::numeric_limits<double>::infinity();
-
-Eigen::Vector3d vector3(const double* v) {
-  return {v[0], v[1], v[2]};
-}
 
 double number(const char* word, const std::string& name) {
   char* end = nullptr;
@@ -140,7 +137,7 @@ ContactStiffness FixTimestepLimit::stiffness(int type, int other_type, double ra
 
 Eigen::Matrix3d FixTimestepLimit::inertia(int i) const {
   if (bodies_ && bodies_->shape_id(i) != FixBodies::plain_sphere) {
-    const Eigen::Matrix3d r = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(bodies_->rotation(i));
+    const Eigen::Matrix3d r = row_major(bodies_->rotation(i));
     return r * bodies_->inertia(i).asDiagonal() * r.transpose();
   }
   constexpr double solid_sphere = 0.4;
@@ -156,7 +153,7 @@ void FixTimestepLimit::add_pair(int i, int j, std::vector<BodyStiffness>& bodies
   const auto rotation_of = [&](int k) -> Eigen::Matrix3d {
     if (!bodies_)
       return Eigen::Matrix3d::Identity();
-    return Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(bodies_->rotation(k));
+    return row_major(bodies_->rotation(k));
   };
   const Eigen::Vector3d apart = vector3(atom->x[j]) - vector3(atom->x[i]);
   if (apart.norm() >= atom->radius[i] + atom->radius[j])

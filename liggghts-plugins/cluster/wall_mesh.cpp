@@ -3,6 +3,8 @@
 // Triangle meshes as walls.
 #include "cluster/wall_mesh.h"
 
+#include "cluster/eigen_views.h"
+
 #include <mpi.h>
 
 #include "atom.h"
@@ -23,10 +25,6 @@ using namespace LAMMPS_NS;
 namespace {
 
 constexpr int kFaceContact = 7; // all three barycentric coordinates positive, in the code of TriMesh
-
-Eigen::Vector3d vector3(const double* v) {
-  return {v[0], v[1], v[2]};
-}
 
 Eigen::Vector3d node(TriMesh* mesh, int triangle, int k) {
   double x[3];
