@@ -236,7 +236,8 @@ std::uint64_t layoutOf(const fvMesh& mesh) {
 void begin(Time& time, bool again) {
   const std::string path = time.globalPath() / kFolder / "start";
   const std::optional<link::Manifest> earlier = again ? link::read_record(path) : std::nullopt;
-  if (earlier) {
+  // All have looked before the first rank writes: one that is late would find what the first has just written.
+  if (returnReduce(earlier.has_value(), andOp<bool>())) {
     const scalar usual = time.deltaTValue();
     time.setTime(std::stod(earlier->note("time")), 0);
     time.setDeltaT(usual, false);
