@@ -5,6 +5,7 @@
 
 #include "boundBox.H"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -14,6 +15,8 @@ namespace {
 /// A point further behind a wall than this, in units of the cube root of the cell's volume, is searched for next time.
 constexpr double kTrustedDepth = 1.0;
 constexpr int kNotEntering = -1;
+/// Particles between the one whose walk begins and the one whose cell is fetched from memory meanwhile.
+constexpr std::size_t kAhead = 6;
 
 struct Query {
   double position[3];
@@ -34,7 +37,9 @@ bool contains(const std::array<double, 6>& box, const double* x) {
 
 } // namespace
 
-guests::guests(const Foam::fvMesh& mesh) : mesh_(mesh), walk_(mesh), boxes_(Foam::Pstream::nProcs()) {
+guests::guests(const Foam::fvMesh& mesh)
+    : mesh_(mesh), walk_(mesh), boxes_(Foam::Pstream::nProcs()),
+      rank_(Foam::Pstream::parRun() ? Foam::Pstream::myProcNo() : 0), outgoing_(boxes_.size()) {
   const Foam::boundBox box(mesh.points(), false);
   std::array<double, 6> mine;
   for (int k = 0; k < 3; ++k) {
@@ -93,81 +98,74 @@ void guests::searchAll(const link::ParticleArrays& particles) {
 
 void guests::invite(const link::ParticleArrays& particles, VoidFraction method, double width) {
   searchAll(particles);
-  std::vector<std::vector<Guest>> outgoing(boxes_.size());
+  here_.clear();
+  here_.reserve(particles.count);
   std::vector<DepositionPoint> points;
-  if (outgoing.size() == 1)
-    outgoing[0].reserve(particles.count);
   for (std::size_t row = 0; row < particles.count; ++row) {
+    walk_.prefetch(particles.ticket[std::min(row + kAhead, particles.count - 1)].cell);
     depositionPoints(method, particles.volume[row], particles.extent ? particles.extent[row] : nullptr, width, points);
     const bool centreOnly = points.size() == 1;
     if (!centreOnly)
       points.push_back({{0, 0, 0}, 0.0});
     const double* x = particles.position[row];
+    const double* impulse = particles.impulse[row];
     const link::Ticket ticket = particles.ticket[row];
     for (const DepositionPoint& point : points) {
-      Guest guest{};
+      // Made where it stays in most cases.
+      Guest& guest = here_.emplace_back();
+      const double weight = point.weight;
       for (int k = 0; k < 3; ++k) {
         guest.at.position[k] = x[k] + point.offset[k];
-        guest.impulse[k] = point.weight * particles.impulse[row][k];
+        guest.impulse[k] = weight * impulse[k];
       }
       guest.at.cell = ticket.cell;
-      guest.volume = point.weight * particles.volume[row];
-      guest.drag = point.weight * particles.drag_coefficient[row];
-      guest.weight = point.weight;
+      guest.volume = weight * particles.volume[row];
+      guest.drag = weight * particles.drag_coefficient[row];
+      guest.weight = weight;
       guest.row = static_cast<int>(row);
-      guest.homeRank = Foam::Pstream::parRun() ? Foam::Pstream::myProcNo() : 0;
-      guest.centre = centreOnly || point.weight == 0.0;
-      guest.enterPatch = kNotEntering;
-      outgoing[ticket.rank].push_back(guest);
+      guest.homeRank = rank_;
+      guest.centre = centreOnly || weight == 0.0;
+      if (ticket.rank != rank_) {
+        outgoing_[ticket.rank].push_back({guest, kNotEntering, 0});
+        here_.pop_back();
+      } else
+        receive(walk_.walk(guest.at));
     }
   }
-  settle(outgoing);
+  if (Foam::Pstream::parRun())
+    settle();
 }
 
-void guests::settle(std::vector<std::vector<Guest>>& outgoing) {
-  here_.clear();
-  for (;;) {
-    const Arrivals<Guest> arrived = send(outgoing);
-    here_.reserve(here_.size() + arrived.rows.size());
-    for (auto& list : outgoing)
-      list.clear();
-    int travelling = 0;
-    for (std::size_t from = 0; from < boxes_.size(); ++from)
-      for (int i = arrived.begin[from]; i < arrived.begin[from + 1]; ++i) {
-        Guest guest = arrived.rows[i];
-        const WalkEnd end = guest.enterPatch == kNotEntering
-                                ? walk_.walk(guest.at)
-                                : walk_.enter(guest.at, static_cast<int>(from), guest.enterPatch, guest.enterFace);
-        if (end.found) {
-          guest.outside = end.outside > kTrustedDepth * walk_.cellSize(guest.at.cell);
-          here_.push_back(guest);
-        } else {
-          guest.enterPatch = end.nextPatch;
-          guest.enterFace = end.nextFace;
-          outgoing[end.nextRank].push_back(guest);
-          travelling = 1;
-        }
-      }
-    if (Foam::Pstream::parRun())
-      MPI_Allreduce(MPI_IN_PLACE, &travelling, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
-    if (!travelling)
-      return;
+void guests::receive(const WalkEnd& end) {
+  Guest& guest = here_.back();
+  if (end.found) {
+    guest.outside = end.outside > kTrustedDepth * walk_.cellSize(guest.at.cell);
+  } else {
+    outgoing_[end.nextRank].push_back({guest, end.nextPatch, end.nextFace});
+    here_.pop_back();
   }
 }
 
-void guests::stampTickets(link::Ticket* tickets) const {
-  answer(
-      2, 0,
-      [](const Guest& guest, double* values) {
-        if (guest.centre) {
-          values[0] = guest.outside ? -1 : (Foam::Pstream::parRun() ? Foam::Pstream::myProcNo() : 0);
-          values[1] = guest.at.cell;
-        }
-      },
-      [tickets](int row, const double* centre, const double*) {
-        if (centre)
-          tickets[row] = {static_cast<int>(centre[0]), static_cast<int>(centre[1])};
-      });
+void guests::settle() {
+  for (;;) {
+    int travelling = 0;
+    for (const auto& list : outgoing_)
+      travelling |= !list.empty();
+    MPI_Allreduce(MPI_IN_PLACE, &travelling, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    if (!travelling)
+      return;
+    const Arrivals<Traveller> arrived = send(outgoing_);
+    for (auto& list : outgoing_)
+      list.clear();
+    for (std::size_t from = 0; from < boxes_.size(); ++from)
+      for (int i = arrived.begin[from]; i < arrived.begin[from + 1]; ++i) {
+        const Traveller& traveller = arrived.rows[i];
+        Guest& guest = here_.emplace_back(traveller.guest);
+        receive(traveller.enterPatch == kNotEntering
+                    ? walk_.walk(guest.at)
+                    : walk_.enter(guest.at, static_cast<int>(from), traveller.enterPatch, traveller.enterFace));
+      }
+  }
 }
 
 } // namespace eccentra::exchange

@@ -246,8 +246,7 @@ void particleExchange::sample(const FlowFields& flow, const link::ParticleArrays
       for (int k = 0; k < 3; ++k)
         samples.stress_divergence[row][k] += *point++;
   };
-  guests_.answer(perCentre, perPoint, fill, add);
-  guests_.stampTickets(particles.ticket);
+  guests_.answer(perCentre, perPoint, fill, add, particles.ticket);
   balanceForces(told, particles, samples);
 }
 

@@ -55,8 +55,8 @@ void travel(benchmark::State& state) {
     present.invite(particles, VoidFraction::centre, 0);
     present.answer(
         7, 0, [](const Guest& guest, double* values) { std::fill_n(values, 7, guest.volume); },
-        [&](int row, const double* centre, const double*) { std::copy_n(centre, 7, &samples[7 * std::size_t(row)]); });
-    present.stampTickets(tickets.data());
+        [&](int row, const double* centre, const double*) { std::copy_n(centre, 7, &samples[7 * std::size_t(row)]); },
+        tickets.data());
   }
   state.SetItemsProcessed(state.iterations() * kParticles);
 }
