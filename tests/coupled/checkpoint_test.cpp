@@ -3,6 +3,7 @@
 // A run that goes on from a checkpoint gives the digits of the run that was not interrupted; what is damaged is not
 // used.
 #include "coupled/checkpoint_scene.h"
+#include "support/read_file.h"
 #include "support/run_program.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 namespace {
 
@@ -24,11 +24,6 @@ constexpr int kSteps = kMeetings * kStepsPerMeeting;
 /// Checkpoints after 8, 16 and 24 meetings; the last two are kept.
 const char* const kWords = "solver every 40 checkpoint 8";
 constexpr int kMiddle = 16 * kStepsPerMeeting;
-
-std::string contents(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// Rows of the table without the columns that tell wall-clock times.
 std::string physics_of(const fs::path& folder) {
@@ -66,19 +61,6 @@ struct Result {
 
 Result result_of(const fs::path& folder) {
   return {contents(folder / "end.bodies"), physics_of(folder)};
-}
-
-/// All numbers of a file.
-std::vector<double> numbers_of(const fs::path& file) {
-  std::ifstream in(file);
-  std::vector<double> all;
-  for (std::string word; in >> word;) {
-    char* end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    if (*end == '\0')
-      all.push_back(value);
-  }
-  return all;
 }
 
 void replace_entry(const fs::path& file, const std::string& part, const std::string& by) {
@@ -132,7 +114,7 @@ TEST(Checkpoint, AnyNumberOfRanksGoesOnToRoundOff) {
   const Outcome outcome = run(box, "other_ranks", 2);
   ASSERT_EQ(outcome.status, 0) << outcome.text;
   const fs::path folder = outcome.folder;
-  const std::vector<double> straight = numbers_of(folder / "end.bodies");
+  const std::vector<double> straight = numbers_in(folder / "end.bodies");
   ASSERT_FALSE(straight.empty());
   const auto expect_same = [&](int ranks) {
     forget_end(folder);
@@ -141,7 +123,7 @@ TEST(Checkpoint, AnyNumberOfRanksGoesOnToRoundOff) {
     EXPECT_NE(second.output.find("goes on from checkpoint " + std::to_string(kMiddle)), std::string::npos);
     EXPECT_NE(second.output.find("2 rank(s) is divided anew among " + std::to_string(ranks)), std::string::npos)
         << second.output;
-    const std::vector<double> resumed = numbers_of(folder / "end.bodies");
+    const std::vector<double> resumed = numbers_in(folder / "end.bodies");
     ASSERT_EQ(resumed.size(), straight.size());
     for (std::size_t i = 0; i < straight.size(); ++i)
       EXPECT_NEAR(resumed[i], straight[i], kRoundOff * std::max(1.0, std::abs(straight[i]))) << ranks << " ranks";

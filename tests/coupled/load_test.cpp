@@ -4,6 +4,7 @@
 // comes out.
 #include "coupled/checkpoint_scene.h"
 #include "link/two_jobs.h"
+#include "support/read_file.h"
 
 #include <gtest/gtest.h>
 
@@ -33,18 +34,6 @@ BoxCase heaped(const std::string& link, bool balanced) {
   return box;
 }
 
-std::vector<double> bodies_in(const std::string& folder) {
-  std::ifstream in(folder + "/end.bodies");
-  std::vector<double> all;
-  for (std::string word; in >> word;) {
-    char* end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    if (*end == '\0')
-      all.push_back(value);
-  }
-  return all;
-}
-
 /// The number after `words` in what the run has printed about its load.
 double reported(const std::string& text, const std::string& words) {
   const auto line = text.find("rank(s) of DEM in ");
@@ -68,12 +57,12 @@ TEST(Load, BalancingKeepsWorkingInCoupledRunsAndIsReported) {
   EXPECT_NEAR(reported(uneven.text, "particles "), 2.0, 0.1) << uneven.text;
   EXPECT_GT(reported(uneven.text, "computing "), 1.2) << uneven.text;
   EXPECT_NE(uneven.text.find("cells 1.000"), std::string::npos) << uneven.text;
-  const std::vector<double> reference = bodies_in(uneven.folder);
+  const std::vector<double> reference = numbers_in(uneven.folder + "/end.bodies");
 
   const Outcome even = run(heaped("solver every 40", true), "even", 2);
   ASSERT_EQ(even.status, 0) << even.text;
   EXPECT_LT(reported(even.text, "particles "), 1.5) << even.text;
-  expect_same(bodies_in(even.folder), reference);
+  expect_same(numbers_in(even.folder + "/end.bodies"), reference);
 
   const std::string address = socket_address("balance");
   BoxCase box = heaped("socket " + address + " every 40 wait 60", true);
@@ -89,5 +78,5 @@ TEST(Load, BalancingKeepsWorkingInCoupledRunsAndIsReported) {
   // Both sides tell.
   for (const std::string& text : {fluid.text, particles.text()})
     EXPECT_LT(std::abs(reported(text, "particles ") - reported(even.text, "particles ")), 0.05) << text;
-  expect_same(bodies_in(folder.string()), reference);
+  expect_same(numbers_in(folder / "end.bodies"), reference);
 }

@@ -3,6 +3,7 @@
 // Two jobs and what may befall them: each is noticed, said in one sentence, and what was reached is not lost.
 #include "coupled/checkpoint_scene.h"
 #include "link/two_jobs.h"
+#include "support/read_file.h"
 
 #include <gtest/gtest.h>
 
@@ -84,19 +85,6 @@ std::string undisturbed() {
     return contents(outcome.folder + "/end.bodies");
   }();
   return bodies;
-}
-
-/// All numbers of a file.
-std::vector<double> numbers(const std::string& file) {
-  std::ifstream in(file);
-  std::vector<double> all;
-  for (std::string word; in >> word;) {
-    char* end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    if (*end == '\0')
-      all.push_back(value);
-  }
-  return all;
 }
 
 void expect_stop_by(int signal, const char* name, bool to_fluid) {
@@ -201,12 +189,12 @@ TEST(Faults, ParticlesGoOnOnOtherRanks) {
   Jobs jobs("ranks", kSteps);
   jobs.start();
   jobs.expect_done();
-  const std::vector<double> straight = numbers(jobs.folder + "/end.bodies");
+  const std::vector<double> straight = numbers_in(jobs.folder + "/end.bodies");
   fs::remove(jobs.folder + "/end.bodies");
   fs::remove_all(jobs.folder + "/checkpoints/" + std::to_string(kSteps));
   jobs.start({"-resume"}, 2);
   jobs.expect_done();
-  const std::vector<double> resumed = numbers(jobs.folder + "/end.bodies");
+  const std::vector<double> resumed = numbers_in(jobs.folder + "/end.bodies");
   ASSERT_GT(straight.size(), 300u);
   ASSERT_EQ(resumed.size(), straight.size());
   for (std::size_t i = 0; i < straight.size(); ++i)

@@ -5,11 +5,11 @@
 
 #include "link/background_job.h"
 #include "link/durable_files.h"
+#include "support/read_file.h"
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -34,11 +34,6 @@ inline std::vector<std::string> command(const std::string& program, const std::v
   all.push_back(std::string(std::getenv("ECCENTRA_BIN")) + '/' + program);
   all.insert(all.end(), words.begin(), words.end());
   return all;
-}
-
-inline std::string contents(const std::string& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 inline void replace_in(const std::string& file, const std::string& part, const std::string& by) {

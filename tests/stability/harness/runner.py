@@ -110,7 +110,7 @@ def run(case: Case, program, folder: pathlib.Path, digest: str) -> Result:
     for i, one in enumerate(measured):
         if one.status != 0 and "status" not in str(case.checks):
             lines = [line for line in one.output.splitlines() if line.strip()]
-            error = next((line for line in lines if "ERROR" in line), lines[-1] if lines else "no output")
+            error = next((line for line in lines if re.search("ERROR|: error:", line)), lines[-1] if lines else "no output")
             found.append(f"run {i} ended with status {one.status}: {error[:200]}")
             holds = False
     stopped = not holds
