@@ -6,22 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace eccentra::cluster {
-
-void CandidateStore::clear() {
-  for (auto* v : {&ax, &ay, &az, &bx, &by, &bz, &reach})
-    v->clear();
-  id.clear();
-}
-
-int CandidateStore::reserve(int count) {
-  const int first = size();
-  for (auto* v : {&ax, &ay, &az, &bx, &by, &bz, &reach})
-    v->resize(first + count);
-  id.resize(first + count);
-  return first;
-}
 
 SearchResult CandidateSearch::search(const SurfaceSpheres& a, float extra_a, const SurfaceSpheres& b, float extra_b,
                                      const RelativePose& pose, float skin) {
@@ -122,81 +109,50 @@ SearchResult CandidateSearch::search(const SurfaceSpheres& a, float extra_a, con
   return {static_cast<int>(found_.size()), skin};
 }
 
-void CandidateSearch::write(const SurfaceSpheres& a, float extra_a, const SurfaceSpheres& b, float extra_b,
-                            CandidateStore& store, int first) const {
-  const int count = static_cast<int>(found_.size());
-  for (int n = 0; n < padded(count); ++n) {
-    const int m = first + n;
-    if (n >= count) {
-      // Far apart, whatever the pose.
-      constexpr float nowhere = 1e6f;
-      store.ax[m] = nowhere;
-      store.ay[m] = store.az[m] = store.bx[m] = store.by[m] = store.bz[m] = store.reach[m] = 0;
-      store.id[m] = 0;
-      continue;
-    }
-    const int i = contact_sphere_a(found_[n]), j = contact_sphere_b(found_[n]);
-    store.ax[m] = a.xf[i];
-    store.ay[m] = a.yf[i];
-    store.az[m] = a.zf[i];
-    store.bx[m] = b.xf[j];
-    store.by[m] = b.yf[j];
-    store.bz[m] = b.zf[j];
-    store.reach[m] = a.rf[i] + extra_a + b.rf[j] + extra_b;
-    store.id[m] = found_[n];
-  }
-}
+namespace {
 
-int overlapping_candidates(const CandidateStore& store, int first, int count, const RelativePose& pose, float margin,
-                           int* hits) {
-  const float t[9] = {pose.row[0][0], pose.row[0][1], pose.row[0][2], pose.row[1][0], pose.row[1][1],
-                      pose.row[1][2], pose.row[2][0], pose.row[2][1], pose.row[2][2]};
-  const float tx = pose.row[0][3], ty = pose.row[1][3], tz = pose.row[2][3];
+/// The vector from A's sub-sphere to B's in A's frame; fourth lane: what `extra` starts with, minus the sum of their
+/// radii. One candidate after the other in one register: lists are short, and each knows where its spheres are.
+class Separation {
+ public:
+  Separation(const PosedShapes& s, float extra) : a_(s.a.sphere.data()), b_(s.b.sphere.data()) {
+    for (int k = 0; k < 4; ++k)
+      column_[k] = Float4{s.pose.row[0][k], s.pose.row[1][k], s.pose.row[2][k], 0.f};
+    column_[3][3] = -extra;
+  }
+  Float4 operator()(int id) const {
+    const Float4 a = __builtin_convertvector(a_[contact_sphere_a(id)], Float4);
+    const Float4 b = __builtin_convertvector(b_[contact_sphere_b(id)], Float4);
+    constexpr Float4 radius = {0, 0, 0, 1};
+    return column_[0] * b[0] + column_[1] * b[1] + column_[2] * b[2] + column_[3] - a - b * radius;
+  }
+
+ private:
+  const Double4 *a_, *b_;
+  Float4 column_[4];
+};
+
+} // namespace
+
+int overlapping_candidates(const PosedShapes& shapes, const int* ids, int count, float margin, int* hits) {
+  const Separation separation(shapes, shapes.extra + margin);
   int kept = 0;
-  constexpr int width = CandidateStore::width;
-  for (int start = 0; start < count; start += width) {
-    const std::size_t at = first + start;
-    const float *ax = store.ax.data() + at, *ay = store.ay.data() + at, *az = store.az.data() + at;
-    const float *bx = store.bx.data() + at, *by = store.by.data() + at, *bz = store.bz.data() + at;
-    const float* reach = store.reach.data() + at;
-    const int* id = store.id.data() + at;
-    float gap[width];
-    for (int k = 0; k < width; ++k) {
-      const float u = t[0] * bx[k] + t[1] * by[k] + t[2] * bz[k] + (tx - ax[k]);
-      const float v = t[3] * bx[k] + t[4] * by[k] + t[5] * bz[k] + (ty - ay[k]);
-      const float w = t[6] * bx[k] + t[7] * by[k] + t[8] * bz[k] + (tz - az[k]);
-      const float r = reach[k] + margin;
-      gap[k] = u * u + v * v + w * w - r * r;
-    }
-    for (int k = 0; k < width; ++k) {
-      hits[kept] = id[k];
-      kept += gap[k] < 0;
-    }
+  for (int n = 0; n < count; ++n) {
+    const Float4 d = separation(ids[n]), square = d * d;
+    hits[kept] = ids[n];
+    kept += square[0] + square[1] + square[2] < square[3];
   }
   return kept;
 }
 
-float least_gap(const CandidateStore& store, int first, int count, const RelativePose& pose) {
-  const float t[9] = {pose.row[0][0], pose.row[0][1], pose.row[0][2], pose.row[1][0], pose.row[1][1],
-                      pose.row[1][2], pose.row[2][0], pose.row[2][1], pose.row[2][2]};
-  const float tx = pose.row[0][3], ty = pose.row[1][3], tz = pose.row[2][3];
-  constexpr int width = CandidateStore::width;
-  float least[width];
-  std::fill(least, least + width, 1e30f);
-  for (int start = 0; start < count; start += width) {
-    const std::size_t at = first + start;
-    const float *ax = store.ax.data() + at, *ay = store.ay.data() + at, *az = store.az.data() + at;
-    const float *bx = store.bx.data() + at, *by = store.by.data() + at, *bz = store.bz.data() + at;
-    const float* reach = store.reach.data() + at;
-    for (int k = 0; k < width; ++k) {
-      const float u = t[0] * bx[k] + t[1] * by[k] + t[2] * bz[k] + (tx - ax[k]);
-      const float v = t[3] * bx[k] + t[4] * by[k] + t[5] * bz[k] + (ty - ay[k]);
-      const float w = t[6] * bx[k] + t[7] * by[k] + t[8] * bz[k] + (tz - az[k]);
-      const float gap = std::sqrt(u * u + v * v + w * w) - reach[k];
-      least[k] = gap < least[k] ? gap : least[k];
-    }
+float least_gap(const PosedShapes& shapes, const int* ids, int count) {
+  const Separation separation(shapes, shapes.extra);
+  float least = std::numeric_limits<float>::max();
+  for (int n = 0; n < count; ++n) {
+    const Float4 d = separation(ids[n]), square = d * d;
+    least = std::min(least, std::sqrt(square[0] + square[1] + square[2]) + d[3]);
   }
-  return *std::min_element(least, least + width);
+  return least;
 }
 
 } // namespace eccentra::cluster

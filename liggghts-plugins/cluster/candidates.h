@@ -54,20 +54,23 @@ struct RelativePose {
   Float4 row[3]; ///< rotation from B's frame to A's by rows; fourth lane: B's centre [m]
 };
 
-/// Candidates of many pairs of bodies, one after the other, as structure of arrays: centres in either body frame.
-/// Each list starts and ends at a multiple of `width`; the padding touches nothing.
+/// The contact_id of candidates of many pairs of bodies, each pair's one after the other. Ids alone: the shapes'
+/// spheres stay in the cache, whereas coordinates for each candidate would be most of a body's memory.
 class CandidateStore {
  public:
-  static constexpr int width = 8;
-
-  void clear();
+  void clear() { ids_.clear(); }
   /// Room for `count` more; returns the index of the first.
-  int reserve(int count);
-  /// Elements in use, the abandoned ones among them.
-  int size() const { return static_cast<int>(id.size()); }
+  int reserve(int count) {
+    const int first = static_cast<int>(ids_.size());
+    ids_.resize(first + count);
+    return first;
+  }
+  int* at(int index) { return ids_.data() + index; }
+  const int* at(int index) const { return ids_.data() + index; }
+  std::size_t bytes() const { return ids_.capacity() * sizeof(int); }
 
-  std::vector<float> ax, ay, az, bx, by, bz, reach;
-  std::vector<int> id;
+ private:
+  std::vector<int> ids_;
 };
 
 /// What a search found.
@@ -82,12 +85,8 @@ class CandidateSearch {
   /// extra: added to all radii (plain spheres).
   SearchResult search(const SurfaceSpheres& a, float extra_a, const SurfaceSpheres& b, float extra_b,
                       const RelativePose& pose, float skin);
-  /// Writes the pairs found by the last search to `store` at `first`, padded to whole vectors.
-  void write(const SurfaceSpheres& a, float extra_a, const SurfaceSpheres& b, float extra_b, CandidateStore& store,
-             int first) const;
-  static int padded(int count) {
-    return (count + CandidateStore::width - 1) / CandidateStore::width * CandidateStore::width;
-  }
+  /// The pairs found by the last search, ascending.
+  const std::vector<int>& found() const { return found_; }
 
  private:
   std::vector<int> found_;
@@ -96,12 +95,17 @@ class CandidateSearch {
   std::vector<float> nx_, ny_, nz_, nr_, distance_; ///< the near ones of B, compact
 };
 
-/// Writes to `hits` (room for `count`, a multiple of the width) the ids of candidates that may overlap now; returns how
-/// many.
-int overlapping_candidates(const CandidateStore& store, int first, int count, const RelativePose& pose, float margin,
-                           int* hits);
+/// Two shapes and how their bodies lie to each other, for the two functions below.
+struct PosedShapes {
+  const SurfaceSpheres &a, &b;
+  float extra; ///< added to the sum of two radii [m]
+  const RelativePose& pose;
+};
 
-/// The least gap between the sub-spheres of candidates first..first+count-1, count a multiple of the width [m].
-float least_gap(const CandidateStore& store, int first, int count, const RelativePose& pose);
+/// Writes to `hits` (room for count) those of `ids` that overlap or are closer than `margin` [m]; returns how many.
+int overlapping_candidates(const PosedShapes& shapes, const int* ids, int count, float margin, int* hits);
+
+/// The least gap between the sub-spheres of the candidates [m].
+float least_gap(const PosedShapes& shapes, const int* ids, int count);
 
 } // namespace eccentra::cluster

@@ -33,8 +33,8 @@ void NearPairs::rebuild(const NeighList& list) {
   pairs.clear();
   pairs.reserve(count); // growing would need room for twice as many
   candidates.clear();
+  searches.clear();
   const int* tag = atom->tag;
-  const double* radius = atom->radius;
   const ShapeTable& shapes = bodies_.shapes();
   for (int n = 0; n < list.inum; ++n) {
     const int i = list.ilist[n];
@@ -48,16 +48,12 @@ void NearPairs::rebuild(const NeighList& list) {
       p.tag_b = tag[p.b];
       p.surface_a = &shapes.surface(bodies_.shape_id(p.a));
       p.surface_b = &shapes.surface(bodies_.shape_id(p.b));
-      p.direct = p.surface_a->single_at_centre && p.surface_b->single_at_centre;
+      p.search =
+          p.surface_a->single_at_centre && p.surface_b->single_at_centre ? NearPair::needless : NearPair::not_yet;
       p.extra_a = bodies_.extra_radius(p.a);
       p.extra_b = bodies_.extra_radius(p.b);
-      p.bound_b = static_cast<float>(radius[p.b]);
-      p.searched = false;
       p.skin = 0;
-      p.range = static_cast<float>(radius[p.a] + radius[p.b]);
-      p.largest_reach =
-          static_cast<float>(p.surface_a->largest_radius + p.extra_a + p.surface_b->largest_radius + p.extra_b);
-      p.candidate_first = p.candidate_count = p.candidate_room = 0;
+      p.candidate_first = p.candidate_count = 0;
       pairs.push_back(p);
     }
   }
@@ -134,6 +130,26 @@ void NearPairs::update_bodies(double dt, int held_groups) {
   std::fill(forces_.begin(), forces_.end(), BodyForce());
 }
 
+// As short as can be: each step asks all pairs.
+int NearPairs::find_awake(int* out) const {
+  const VelocityChange* change = change_.data();
+  const PairWake* wake = wakes.data();
+  const char* rests = idle.data();
+  const float now = time_;
+  const int count = static_cast<int>(pairs.size());
+  int awake = 0;
+  for (int n = 0; n < count; ++n) {
+    const PairWake& w = wake[n];
+    const VelocityChange &a = change[w.a], &b = change[w.b];
+    const float moved =
+        (now - w.since) * (w.speed + (a.speed + b.speed - w.changed) + (a.turning + b.turning - w.turned) * w.reach);
+    const int stale = moved < w.room ? 0 : -1;
+    out[awake] = n ^ stale;
+    awake += 1 - (rests[n] & ~stale);
+  }
+  return awake;
+}
+
 void NearPairs::add_forces() const {
   for (int i = 0; i < atom->nlocal; ++i)
     for (int k = 0; k < 3; ++k) {
@@ -145,16 +161,22 @@ void NearPairs::add_forces() const {
 // The velocity of B's matter at r from B's centre, in a frame that moves and turns with A, is u + (w_B - w_A) x r with
 // u = v_B - v_A - w_A x d, d from A's centre to B's. Two round bodies need no turning frame: u = v_B - v_A.
 double NearPairs::relative_speed(const NearPair& p, const double* offset) const {
+  if (p.direct())
+    return speed_of_centres(p);
   const BodyState &a = bodies_now_[p.a], &b = bodies_now_[p.b];
   const double *va = a.v, *vb = b.v, *wa = a.omega, *wb = b.omega;
   const double v[3] = {vb[0] - va[0], vb[1] - va[1], vb[2] - va[2]};
-  if (p.direct)
-    return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   const double u[3] = {v[0] - (wa[1] * offset[2] - wa[2] * offset[1]), v[1] - (wa[2] * offset[0] - wa[0] * offset[2]),
                        v[2] - (wa[0] * offset[1] - wa[1] * offset[0])};
   const double w[3] = {wb[0] - wa[0], wb[1] - wa[1], wb[2] - wa[2]};
   return std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) +
-         p.bound_b * std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+         p.bound_b() * std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+}
+
+double NearPairs::speed_of_centres(const NearPair& p) const {
+  const double *va = bodies_now_[p.a].v, *vb = bodies_now_[p.b].v;
+  const double v[3] = {vb[0] - va[0], vb[1] - va[1], vb[2] - va[2]};
+  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
 // d|u|/dt <= |a_A| + |a_B| + (|alpha_A| + w_A^2) |d|: the rest of du/dt, w_A x u, only turns u.
@@ -167,9 +189,20 @@ void NearPairs::note_look(int pair, const double* offset, double room, bool may_
   wake.changed = change_[p.a].speed + change_[p.b].speed;
   wake.turned = change_[p.a].turning + change_[p.b].turning;
   wake.reach = 0;
-  if (!p.direct)
+  if (!p.direct())
     wake.reach = static_cast<float>(std::sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]) +
-                                    room + p.bound_b);
+                                    room + p.bound_b());
+  wake.room = static_cast<float>(room);
+}
+
+void NearPairs::note_apart(int pair, double room) {
+  const NearPair& p = pairs[pair];
+  PairWake& wake = wakes[pair];
+  idle[pair] = 1;
+  wake.since = time_;
+  wake.speed = static_cast<float>(speed_of_centres(p));
+  wake.changed = change_[p.a].speed + change_[p.b].speed;
+  wake.turned = wake.reach = 0;
   wake.room = static_cast<float>(room);
 }
 
@@ -194,7 +227,7 @@ void NearPairs::take_history() {
   }
   contacts.first[pairs.size()] = contacts.size();
   for (int i = 0; i < atom->nlocal; ++i)
-    history_.touches(i).clear();
+    history_.touches(i) = std::vector<Touch>(); // its memory, too
 }
 
 void NearPairs::hand_over(bool keep) {
@@ -216,6 +249,17 @@ void NearPairs::hand_over(bool keep) {
     const auto found = moved.find(tag);
     return found == moved.end() ? -1 : found->second;
   };
+  // First how many, as growing lists would take twice the memory.
+  std::vector<int> of_atom(atom->nlocal, 0);
+  for (std::size_t n = 0; n < pairs.size(); ++n) {
+    const int count = contacts.first[n + 1] - contacts.first[n];
+    if (count > 0)
+      for (const int i : {owner(pairs[n].a, pairs[n].tag_a), owner(pairs[n].b, pairs[n].tag_b)})
+        if (i >= 0)
+          of_atom[i] += count;
+  }
+  for (int i = 0; i < atom->nlocal; ++i)
+    history_.touches(i).reserve(of_atom[i]);
   for (std::size_t n = 0; n < pairs.size(); ++n) {
     const NearPair& p = pairs[n];
     for (int m = contacts.first[n]; m < contacts.first[n + 1]; ++m) {
@@ -233,10 +277,10 @@ void NearPairs::hand_over(bool keep) {
 }
 
 double NearPairs::memory_usage() const {
-  const double contact_bytes = sizeof(int) + 3 * sizeof(double), candidate_bytes = 7 * sizeof(float) + sizeof(int);
+  const double contact_bytes = sizeof(int) + 3 * sizeof(double);
   return static_cast<double>(pairs.capacity()) * (sizeof(NearPair) + sizeof(PairWake) + 2 * sizeof(int)) +
          static_cast<double>(contacts.id.capacity() + next.id.capacity()) * contact_bytes +
-         static_cast<double>(candidates.id.capacity()) * candidate_bytes;
+         static_cast<double>(candidates.bytes()) + static_cast<double>(searches.capacity()) * sizeof(PairSearch);
 }
 
 } // namespace eccentra::cluster

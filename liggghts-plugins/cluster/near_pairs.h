@@ -20,24 +20,31 @@ namespace eccentra::cluster {
 
 /// Two bodies near each other. A has the lower tag, so that every rank that meets the pair computes the same.
 struct alignas(64) NearPair {
-  // What every step asks for, in one cache line.
+  static constexpr int not_yet = -1, needless = -2; ///< for `search`; needless: two single spheres
+
   int a, b; ///< local or ghost indices
   int tag_a, tag_b;
   const SurfaceSpheres *surface_a, *surface_b;
   double extra_a, extra_b; ///< added to the sub-spheres' radii (plain spheres) [m]
   int candidate_first;     ///< into the candidate store
   int candidate_count;
-  float skin;    ///< relative motion since the last search that the candidates allow [m]
-  bool direct;   ///< two single spheres: nothing to search
-  bool searched; ///< there has been a search
-  // The rest.
-  RelativePose pose;   ///< at the last search
-  float range;         ///< sum of the bounding radii [m]
-  float largest_reach; ///< largest sum of the radii of two sub-spheres [m]
-  float bound_b;       ///< bounding radius of B [m]
-  int candidate_room;
+  float skin; ///< relative motion since the last search that the candidates allow [m]; 0: they hold no more
+  int search; ///< into NearPairs::searches
+
+  bool direct() const { return search == needless; }
+  double bound_a() const { return surface_a->bounding_radius + extra_a; } ///< bounding radius of A [m]
+  double bound_b() const { return surface_b->bounding_radius + extra_b; }
+  double range() const { return bound_a() + bound_b(); }
+  /// Largest sum of the radii of two sub-spheres [m].
+  double largest_reach() const { return surface_a->largest_radius + extra_a + surface_b->largest_radius + extra_b; }
 };
-static_assert(sizeof(NearPair) == 128, "two cache lines");
+static_assert(sizeof(NearPair) == 64, "a cache line");
+
+/// Of pairs whose bounding spheres have met, which are few of those in the list.
+struct PairSearch {
+  RelativePose pose;      ///< at the last search
+  int candidate_room = 0; ///< in the candidate store
+};
 
 /// What tells whether a pair needs a look at all; apart from the rest and short, as most pairs do not and all are
 /// asked. At the last look at time `since` matter of B moved past A's by at most `speed`; until now none has moved
@@ -85,6 +92,7 @@ class NearPairs : protected LAMMPS_NS::Pointers {
   std::vector<char> idle;      ///< one per pair
   ContactList contacts, next;  ///< of the last step; the one under construction
   CandidateStore candidates;
+  std::vector<PairSearch> searches;
 
   /// Once a step of `dt` [s]: states of all bodies, ghosts as well, and changes of their velocities; no forces.
   void update_bodies(double dt, int held_groups);
@@ -126,10 +134,17 @@ class NearPairs : protected LAMMPS_NS::Pointers {
     return (time_ - wake.since) *
            (wake.speed + (a.speed + b.speed - wake.changed) + (a.turning + b.turning - wake.turned) * wake.reach);
   }
+  /// Lists the pairs that need a look in ascending order, as ~n where more than the room for it has been moved; `out`
+  /// has room for all pairs. Returns how many.
+  int find_awake(int* out) const;
   /// Notes a look at the pair that holds for the next `room` [m] of relative motion.
   void note_look(int pair, const double* offset, double room, bool idle);
+  /// The same for a pair that has `room` between its bounding spheres, which then is idle: turning cannot close it.
+  void note_apart(int pair, double room);
   /// Speed at most of B's matter past A's [m/s].
   double relative_speed(const NearPair& pair, const double* offset) const;
+  /// Speed of B's centre past A's [m/s].
+  double speed_of_centres(const NearPair& pair) const;
 
   /// Makes `next` the contacts of the last step.
   void accept() { std::swap(contacts, next); }

@@ -21,7 +21,8 @@ struct PairBlock {
   // In: sums over the pair's contacts, weighted by their stiffness (any unit).
   Row stiffness, normal[3], arm[3]; ///< arm: from A's centre to the contact point [m]
   // Out.
-  Row factor; ///< of the contacts' damping, in (0, 1]
+  Row factor;              ///< of the contacts' damping, in (0, 1]
+  Row force[3], torque[3]; ///< on A, torque about its centre of mass [N, N m]
 };
 
 /// Weighs contacts 0..n-1 of a block for the sums of their pairs, in the rows that contact_forces writes later ...
@@ -39,20 +40,38 @@ template <class Block> inline void start_off_centre_sums(Block& c, int n) {
   }
 }
 
-/// ... and sums up contacts first..last-1 of a pair.
-template <class Block> inline void add_off_centre_sums(const Block& c, int first, int last, PairBlock& p, int pair) {
-  double stiffness = 0, normal[3] = {0, 0, 0}, arm[3] = {0, 0, 0};
-  for (int m = first; m < last; ++m) {
-    stiffness += c.contact_radius[m];
+/// ... and sums them up over the contacts of each of `pairs` pairs; `pair_of` tells the pair of contacts 0..n-1. One
+/// loop over all contacts: with one over the contacts of each pair the processor would guess each one's end.
+template <class Block>
+inline void add_off_centre_sums(const Block& c, const int* pair_of, int n, PairBlock& p, int pairs) {
+  for (int m = 0; m < pairs; ++m) {
+    p.stiffness[m] = 0;
+    for (int k = 0; k < 3; ++k)
+      p.normal[k][m] = p.arm[k][m] = 0;
+  }
+  for (int m = 0; m < n; ++m) {
+    const int pair = pair_of[m];
+    p.stiffness[pair] += c.contact_radius[m];
     for (int k = 0; k < 3; ++k) {
-      normal[k] += c.force[k][m];
-      arm[k] += c.torque[k][m];
+      p.normal[k][pair] += c.force[k][m];
+      p.arm[k][pair] += c.torque[k][m];
     }
   }
-  p.stiffness[pair] = stiffness;
+}
+
+/// Sums up forces and torques over the contacts of each pair, likewise.
+template <class Block>
+inline void add_contact_forces(const Block& c, const int* pair_of, int n, PairBlock& p, int pairs) {
   for (int k = 0; k < 3; ++k) {
-    p.normal[k][pair] = normal[k];
-    p.arm[k][pair] = arm[k];
+    std::fill(p.force[k], p.force[k] + pairs, 0.);
+    std::fill(p.torque[k], p.torque[k] + pairs, 0.);
+  }
+  for (int m = 0; m < n; ++m) {
+    const int pair = pair_of[m];
+    for (int k = 0; k < 3; ++k) {
+      p.force[k][pair] += c.force[k][m];
+      p.torque[k][pair] += c.torque[k][m];
+    }
   }
 }
 

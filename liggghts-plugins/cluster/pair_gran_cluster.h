@@ -85,7 +85,7 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   template <class Block> void recall_history(Block& block);
   template <DampingLaw law, class Block> void compute_block(Block& block, int padded);
   template <class Block> void share_damping(Block& block, int padded);
-  template <class Block> void scatter(const Block& block, int pair);
+  void scatter(int pair);
 
   ClusterContactWords words_;
   FixBodies* bodies_ = nullptr;
@@ -96,6 +96,8 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   std::vector<int> awake_; ///< pairs that need a look; ~n where the candidates are no longer all that can touch
   PairInBlock in_block_[ContactBlock::capacity];
   PairBlock pairs_ = {};
+  /// The shapes whose inertia fills all rows of pairs_, or null.
+  const SurfaceSpheres *isotropic_a_ = nullptr, *isotropic_b_ = nullptr;
   int pairs_in_block_ = 0;
   ContactBlock block_ = {};
   std::unique_ptr<LargeContactBlock> large_block_; ///< made when a pair needs it

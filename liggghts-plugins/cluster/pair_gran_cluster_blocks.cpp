@@ -160,10 +160,18 @@ void PairGranCluster::add_pair(Block& c, const NearPair& p, const double* offset
     pairs_.offset[k][number] = offset[k];
   pairs_.ease_a[number] = held_a && !held_b ? 0 : mass_b;
   pairs_.ease_b[number] = held_b && !held_a ? 0 : mass_a;
-  const double *inverse_a = body_a.inverse_inertia, *inverse_b = body_b.inverse_inertia;
-  for (int k = 0; k < 6; ++k) {
-    pairs_.inverse_a[k][number] = inverse_a[k];
-    pairs_.inverse_b[k][number] = inverse_b[k];
+  // Where inertia is the same about all axes, orientation does not change it: as above.
+  const bool isotropic = p.surface_a->equal_moments && p.surface_b->equal_moments;
+  if (!isotropic || isotropic_a_ != p.surface_a || isotropic_b_ != p.surface_b) {
+    const bool everywhere = isotropic && number == 0;
+    const int end = everywhere ? ContactBlock::capacity : number + 1;
+    const double *inverse_a = body_a.inverse_inertia, *inverse_b = body_b.inverse_inertia;
+    for (int k = 0; k < 6; ++k) {
+      std::fill(pairs_.inverse_a[k] + number, pairs_.inverse_a[k] + end, inverse_a[k]);
+      std::fill(pairs_.inverse_b[k] + number, pairs_.inverse_b[k] + end, inverse_b[k]);
+    }
+    isotropic_a_ = everywhere ? p.surface_a : nullptr;
+    isotropic_b_ = everywhere ? p.surface_b : nullptr;
   }
   filled_ = last;
   if (filled_ >= contacts_per_block)
@@ -197,8 +205,9 @@ template <class Block> void PairGranCluster::flush(Block& c) {
   next.id.insert(next.id.end(), block_ids_.data(), block_ids_.data() + filled_);
   for (int k = 0; k < 3; ++k)
     next.displacement[k].insert(next.displacement[k].end(), c.history[k], c.history[k] + filled_);
+  add_contact_forces(c, block_pair_.data(), filled_, pairs_, pairs_in_block_);
   for (int n = 0; n < pairs_in_block_; ++n)
-    scatter(c, n);
+    scatter(n);
   pairs_in_block_ = filled_ = 0;
 }
 
@@ -246,9 +255,9 @@ template <class Block> void PairGranCluster::share_damping(Block& c, int padded)
   start_shared_sums(c, padded);
   start_off_centre_sums(c, padded);
   bool any_with_many = false;
+  add_off_centre_sums(c, block_pair_.data(), filled_, pairs_, pairs_in_block_);
   for (int n = 0; n < pairs_in_block_; ++n) {
     const PairInBlock& p = in_block_[n];
-    add_off_centre_sums(c, p.first, p.last, pairs_, n);
     if (p.last - p.first > shared_each_with_each) {
       any_with_many = true;
       continue;
@@ -274,17 +283,10 @@ template <class Block> void PairGranCluster::share_damping(Block& c, int padded)
 }
 
 /// Adds the forces of a pair of bodies in the block.
-template <class Block> void PairGranCluster::scatter(const Block& c, int pair) {
+void PairGranCluster::scatter(int pair) {
   const PairInBlock& p = in_block_[pair];
-  double fx = 0, fy = 0, fz = 0, tx = 0, ty = 0, tz = 0;
-  for (int m = p.first; m < p.last; ++m) {
-    fx += c.force[0][m];
-    fy += c.force[1][m];
-    fz += c.force[2][m];
-    tx += c.torque[0][m];
-    ty += c.torque[1][m];
-    tz += c.torque[2][m];
-  }
+  const double fx = pairs_.force[0][pair], fy = pairs_.force[1][pair], fz = pairs_.force[2][pair];
+  const double tx = pairs_.torque[0][pair], ty = pairs_.torque[1][pair], tz = pairs_.torque[2][pair];
   const double d[3] = {pairs_.offset[0][pair], pairs_.offset[1][pair], pairs_.offset[2][pair]};
   BodyForce &a = near_->force(p.a), &b = near_->force(p.b);
   a.force += Double4{fx, fy, fz, 0};

@@ -63,13 +63,7 @@ void PairGranCluster::compute_force(int eflag, int vflag, int addflag) {
   const int* old_first = near.contacts.first.data();
   // First which pairs need a look, so that what they need can be on its way when their turn comes.
   awake_.resize(pair_count);
-  int awake = 0;
-  for (int n = 0; n < pair_count; ++n) {
-    const PairWake& wake = near.wakes[n];
-    const bool fresh = near.moved_since_look(wake) < wake.room;
-    awake_[awake] = fresh ? n : ~n;
-    awake += !(fresh && near.idle[n]);
-  }
+  const int awake = near.find_awake(awake_.data());
   int next = 0; // pair whose place among the contacts is not known yet
   for (int k = 0; k < awake; ++k) {
     if (k + prefetched_ahead < awake) {
@@ -98,7 +92,7 @@ void PairGranCluster::compute_force(int eflag, int vflag, int addflag) {
 /// all that can touch.
 int PairGranCluster::pair_contacts(int number, bool fresh, const double* offset, int old_first, int old_last) {
   NearPair& p = near_->pairs[number];
-  if (p.direct) {
+  if (p.direct()) {
     const int only = contact_id(0, 0);
     const Gathered found = gather(p, offset, &only, 1, old_first, old_last);
     if (found.count == 0) {
@@ -110,8 +104,19 @@ int PairGranCluster::pair_contacts(int number, bool fresh, const double* offset,
   }
   RelativePose pose;
   if (!fresh) {
+    if (p.candidate_count == 0) {
+      const double between = std::sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]);
+      const double room = (1 - round_off) * between - p.range();
+      if (room > 0) {
+        p.skin = 0;
+        near_->note_apart(number, room);
+        return 0;
+      }
+    }
     pose = pose_of(p, offset);
-    float left = p.searched ? p.skin - pose.moved_since(p.pose, p.bound_b) : 0;
+    float left = 0;
+    if (p.skin > 0)
+      left = p.skin - pose.moved_since(near_->searches[p.search].pose, static_cast<float>(p.bound_b()));
     if (left <= skin_used_up * p.skin) {
       search_candidates(p, pose, offset);
       left = p.skin;
@@ -121,27 +126,27 @@ int PairGranCluster::pair_contacts(int number, bool fresh, const double* offset,
   if (p.candidate_count == 0)
     return 0;
   ++near_count_;
-  CandidateStore& candidates = near_->candidates;
-  if (p.candidate_count <= tested_at_once) {
-    const Gathered found =
-        gather(p, offset, candidates.id.data() + p.candidate_first, p.candidate_count, old_first, old_last);
+  const int* candidates = near_->candidates.at(p.candidate_first);
+  const int count = p.candidate_count;
+  if (count <= tested_at_once) {
+    const Gathered found = gather(p, offset, candidates, count, old_first, old_last);
     if (found.count == 0) {
       // (d - s) (d + s) = least; no candidate is farther away than the pair's skin allows.
-      const double widest = 2 * p.largest_reach + 2 * p.skin;
+      const double widest = 2 * p.largest_reach() + 2 * p.skin;
       may_idle(number, offset, found.least / widest);
     }
     return found.count;
   }
   if (fresh)
     pose = pose_of(p, offset);
-  const int padded = CandidateSearch::padded(p.candidate_count);
-  if (static_cast<int>(hits_.size()) < padded)
-    hits_.resize(2 * padded);
-  const int hits = overlapping_candidates(candidates, p.candidate_first, padded, pose,
-                                          static_cast<float>(round_off * p.range), hits_.data());
+  const PosedShapes shapes = {*p.surface_a, *p.surface_b, static_cast<float>(p.extra_a + p.extra_b), pose};
+  if (static_cast<int>(hits_.size()) < count)
+    hits_.resize(2 * count);
+  const int hits =
+      overlapping_candidates(shapes, candidates, count, static_cast<float>(round_off * p.range()), hits_.data());
   if (hits > 0)
     return gather(p, offset, hits_.data(), hits, old_first, old_last).count;
-  may_idle(number, offset, least_gap(candidates, p.candidate_first, padded, pose));
+  may_idle(number, offset, least_gap(shapes, candidates, count));
   return 0;
 }
 
@@ -153,7 +158,7 @@ RelativePose PairGranCluster::pose_of(const NearPair& p, const double* offset) c
 void PairGranCluster::may_idle(int number, const double* offset, double gap) {
   const NearPair& p = near_->pairs[number];
   const PairWake& wake = near_->wakes[number];
-  gap -= round_off * p.range;
+  gap -= round_off * p.range();
   if (gap > worth_idling * path_safety * update->dt * near_->relative_speed(p, offset))
     near_->note_look(number, offset, std::min(gap, static_cast<double>(wake.room - near_->moved_since_look(wake))),
                      true);
@@ -167,19 +172,22 @@ void PairGranCluster::search_candidates(NearPair& p, const RelativePose& pose, c
   const double motion = update->dt * near_->relative_speed(p, offset);
   const float skin =
       static_cast<float>(std::clamp(skin_steps * motion, skin_narrowest * smallest, skin_widest * smallest));
-  const float margin = static_cast<float>(2 * round_off * p.range);
+  const float margin = static_cast<float>(2 * round_off * p.range());
   const SearchResult found = search_.search(*p.surface_a, extra_a, *p.surface_b, extra_b, pose, skin + margin);
-  p.searched = true;
-  p.skin = found.slack - margin;
-  p.pose = pose;
-  p.candidate_count = found.count;
-  const int room = CandidateSearch::padded(found.count);
-  if (room > p.candidate_room) {
-    p.candidate_first = store.reserve(room);
-    p.candidate_room = room;
+  if (p.search == NearPair::not_yet) {
+    p.search = static_cast<int>(near_->searches.size());
+    near_->searches.emplace_back();
   }
-  if (found.count > 0)
-    search_.write(*p.surface_a, extra_a, *p.surface_b, extra_b, store, p.candidate_first);
+  PairSearch& search = near_->searches[p.search];
+  p.skin = found.slack - margin;
+  search.pose = pose;
+  p.candidate_count = found.count;
+  if (found.count > search.candidate_room) {
+    // A little more, as what it grows out of is lost until the next list.
+    search.candidate_room = found.count + found.count / 4 + 1;
+    p.candidate_first = store.reserve(search.candidate_room);
+  }
+  std::copy(search_.found().begin(), search_.found().end(), store.at(p.candidate_first));
 }
 
 } // namespace eccentra::cluster
