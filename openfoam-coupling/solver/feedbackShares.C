@@ -12,25 +12,20 @@ namespace eccentra {
 
 using namespace Foam;
 
-#include <cstdlib>
 namespace {
-double ev(const char* n) {
-  const char* e = std::getenv(n);
-  return e ? std::atof(e) : 1.0;
-}
+
 /// Beyond it an exponential is 0 in any case.
 constexpr scalar kLargestExponent = 50;
+
 } // namespace
 
 scalar fractionShare(const feedbackLoad& load) {
-  static const double X = ev("FTH");
-  return X * std::min(1.0, 1.5 / (1.0 + 2.5 * load.displaced * load.follows));
+  return std::min(1.0, 1.5 / (1.0 + 2.5 * load.displaced * load.follows));
 }
 
 scalar forceShare(const feedbackLoad& load) {
   const scalar s = load.follows, mass = load.displaced * load.lightness;
-  static const double X = ev("FOM");
-  return X * std::min(1.0, 1.7 / (1.0 + load.displaced * s + 2.0 * mass + 3.0 * mass * s * (1.0 - s)));
+  return std::min(1.0, 1.7 / (1.0 + load.displaced * s + 2.0 * mass + 3.0 * mass * s * (1.0 - s)));
 }
 
 feedbackLoads::feedbackLoads(const scalarField& solid, const scalarField* drag, scalar density, scalar fluidDensity,
