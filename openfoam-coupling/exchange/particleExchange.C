@@ -53,6 +53,7 @@ particleExchange::particleExchange(const fvMesh& mesh, const ExchangeSettings& s
     diffusion_ =
         std::make_unique<conservativeDiffusion>(mesh, settings.length, settings.diffusionSteps, settings.tolerance);
     sharing_ = std::make_unique<vertexSharing>(mesh);
+    reading_ = std::make_unique<flowReading>(mesh);
   }
   for (auto* guesses : {&forceGuess_, &pressureGuess_, &stressGuess_})
     for (scalarField& guess : *guesses)
@@ -87,6 +88,14 @@ double particleExchange::valueAt(const Guest& guest, const SharedField& field) c
   return sharing_ ? vertexSharing::read(shares_[&guest - guests_.here().data()], field) : field.cells[guest.at.cell];
 }
 
+void particleExchange::soften(scalarField& amount) const {
+  if (!sharing_)
+    return;
+  SharedField shared = sharing_->empty();
+  shared.aroundCells = amount;
+  amount = sharing_->collect(shared);
+}
+
 void particleExchange::spread(scalarField& amount, scalarField& perVolume) {
   if (diffusion_) {
     diffusion_->spread(amount, perVolume);
@@ -112,6 +121,7 @@ void particleExchange::deposit(const link::ParticleArrays& particles, double ela
     force->setSize(mesh_.nCells());
   for (int k = 0; k < 3 && force; ++k) {
     scalarField impulse = gather([k](const Guest& guest) { return guest.impulse[k]; });
+    soften(impulse);
     spread(impulse, forceGuess_[k]);
     overflow_.spread(impulse);
     meshImpulse[k] = sum(impulse);
@@ -119,6 +129,7 @@ void particleExchange::deposit(const link::ParticleArrays& particles, double ela
   }
   if (drag) {
     scalarField dragAmount = gather([](const Guest& guest) { return guest.drag; });
+    soften(dragAmount);
     spread(dragAmount, dragGuess_);
     overflow_.spread(dragAmount);
     // The linear solver's tolerance may leave a drag coefficient of -1e-20 where no particle is.
@@ -178,14 +189,62 @@ vectorField particleExchange::untold() const {
   return stressOwed_.back() - pressureOwed_.back();
 }
 
+/// Of the fluid at a guest.
+struct PointFlow {
+  vector velocity = Zero;
+  scalar fraction = 1;
+};
+
+struct particleExchange::FlowAtGuests {
+  const fvMesh& mesh;
+  const scalar leastFraction; ///< that a velocity may be divided by
+  const volScalarField* fraction = nullptr;
+  tmp<volVectorField> flux; ///< alpha U per area; U where the fraction is not known
+  tmp<volTensorField> gradU, gradFlux;
+  tmp<volVectorField> gradFraction;
+  ReadableFlow<vector> readableFlux;
+  ReadableFlow<scalar> readableFraction;
+
+  PointFlow at(const Guest& guest, const PointShares* shares) const {
+    const label cell = guest.at.cell;
+    const point x(guest.at.position[0], guest.at.position[1], guest.at.position[2]);
+    const vector fromCentre(guest.outside ? vector(Zero) : x - mesh.cellCentres()[cell]);
+    PointFlow here;
+    if (fraction)
+      here.fraction =
+          shares ? readableFraction.at(*shares) : linear((*fraction)[cell], gradFraction()[cell], fromCentre);
+    if (flux.valid()) {
+      here.velocity = shares ? readableFlux.at(*shares) : linear(flux()[cell], gradFlux()[cell], fromCentre);
+      if (fraction)
+        here.velocity /= std::max(here.fraction, leastFraction);
+    }
+    return here;
+  }
+};
+
+particleExchange::FlowAtGuests particleExchange::flowAtGuests(const FlowFields& flow,
+                                                              const fluid::FluidSamples& samples) const {
+  FlowAtGuests at{mesh_, 1.0 - settings_.mostSolid, flow.fraction};
+  if (samples.vorticity)
+    at.gradU = fvc::grad(*flow.velocity);
+  if (samples.velocity) {
+    at.flux = flow.fraction ? *flow.fraction * *flow.velocity : tmp<volVectorField>(*flow.velocity);
+    at.gradFlux = fvc::grad(at.flux());
+  }
+  if (flow.fraction && (samples.fraction || samples.velocity))
+    at.gradFraction = fvc::grad(*flow.fraction);
+  else
+    at.fraction = nullptr;
+  if (reading_ && samples.velocity)
+    at.readableFlux = reading_->readable(at.flux(), at.gradFlux());
+  if (reading_ && at.fraction)
+    at.readableFraction = reading_->readable(*flow.fraction, at.gradFraction());
+  return at;
+}
+
 void particleExchange::sample(const FlowFields& flow, const link::ParticleArrays& particles,
                               const fluid::FluidSamples& samples) {
-  tmp<volTensorField> gradU;
-  if (samples.velocity || samples.vorticity)
-    gradU = fvc::grad(*flow.velocity);
-  tmp<volVectorField> gradFraction;
-  if (samples.fraction)
-    gradFraction = fvc::grad(*flow.fraction);
+  const FlowAtGuests atGuests(flowAtGuests(flow, samples));
   const ToldFields told = toldFields(flow, samples);
   Readable pressure, stress;
   if (samples.pressure_gradient)
@@ -204,17 +263,14 @@ void particleExchange::sample(const FlowFields& flow, const link::ParticleArrays
       *at++ = guest.weight * valueAt(guest, force[k]);
   };
   const auto fill = [&](const Guest& guest, double* at) {
-    const label cell = guest.at.cell;
     if (guest.centre) {
-      const point x(guest.at.position[0], guest.at.position[1], guest.at.position[2]);
-      const vector fromCentre(guest.outside ? vector(Zero) : x - mesh_.cellCentres()[cell]);
+      const PointFlow here(atGuests.at(guest, sharing_ ? &shares_[&guest - guests_.here().data()] : nullptr));
       if (samples.velocity)
-        put(at, linear((*flow.velocity)[cell], gradU()[cell], fromCentre));
+        put(at, here.velocity);
       if (samples.fraction)
-        *at++ =
-            std::clamp(linear((*flow.fraction)[cell], gradFraction()[cell], fromCentre), settings_.fractionFloor, 1.0);
+        *at++ = std::clamp(here.fraction, settings_.fractionFloor, 1.0);
       if (samples.vorticity)
-        put(at, 2.0 * (*skew(gradU()[cell])));
+        put(at, 2.0 * (*skew(atGuests.gradU()[guest.at.cell])));
     }
     if (samples.pressure_gradient)
       putForce(at, guest, pressure);

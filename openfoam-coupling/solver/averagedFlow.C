@@ -6,6 +6,7 @@
 
 #include "deferredConvection.H"
 #include "extrapolatedVelocity.H"
+#include "facewardForce.H"
 
 #include "adjustPhi.H"
 #include "constrainHbyA.H"
@@ -17,6 +18,7 @@
 #include "fvcGrad.H"
 #include "fvcLaplacian.H"
 #include "fvcMeshPhi.H"
+#include "fvcReconstruct.H"
 #include "fvcSnGrad.H"
 #include "fvcSurfaceIntegrate.H"
 #include "fvmDdt.H"
@@ -96,6 +98,7 @@ averagedFlow::coupledFields::coupledFields(const fvMesh& mesh, const surfaceScal
                zeroGradientFvPatchScalarField::typeName),
       particleForce(scratch("particleForce", mesh), mesh, dimensionedVector(dimAcceleration, Zero),
                     zeroGradientFvPatchVectorField::typeName),
+      facesForce("facesForce", particleForce),
       withheld(state("withheldForce", mesh), mesh, dimensionedVector(dimAcceleration, Zero),
                zeroGradientFvPatchVectorField::typeName),
       returned(mesh.nCells(), Zero), alphaf("alphaf", fvc::interpolate(alpha)), alphaPhi("alphaPhi", alphaf * phi),
@@ -185,6 +188,7 @@ void averagedFlow::advance() {
   if (coupled_.valid()) {
     checkSolidVolume();
     coupled_->alphaf = fvc::interpolate(coupled_->alpha);
+    coupled_->facesForce == facewardForce(coupled_->particleForce);
     chooseReturned();
   }
   while (pimple_.loop()) {
@@ -281,7 +285,7 @@ tmp<fvVectorMatrix> averagedFlow::momentumMatrix() {
     vectorField& source = tUEqn.ref().source();
     forAll(source, celli) {
       source[celli] +=
-          V[celli] * (c.particleForce[celli] + c.returned[celli] + c.exchange[celli] * Uold[celli] + alpha[celli] * G);
+          V[celli] * (c.facesForce[celli] + c.returned[celli] + c.exchange[celli] * Uold[celli] + alpha[celli] * G);
     }
   }
   tUEqn.ref().relax();
@@ -322,6 +326,10 @@ void averagedFlow::correctPressure(fvVectorMatrix& UEqn) {
       history.ref() *= c->alphaf;
     }
     phiHbyA += history;
+  }
+  if (c) {
+    // The faces see the force itself, of which the cells have the means.
+    phiHbyA += fvc::interpolate(rAU) * fvc::flux(c->particleForce - c->facesForce);
   }
   if (!c && p_.needReference()) {
     adjustPhi(phiHbyA, U_, p_);
@@ -404,6 +412,14 @@ tmp<volVectorField> averagedFlow::pressureGradient() const {
   tmp<volVectorField> gradient(fvc::grad(p_));
   gradient.ref() -= drive_.acceleration();
   return dimensionedScalar("rho", dimDensity, rho_) * gradient;
+}
+
+tmp<volVectorField> averagedFlow::velocityOfFluxes() const {
+  const coupledFields& c = fields("fluid fraction");
+  tmp<volVectorField> U(new volVectorField(scratch("velocityOfFluxes", mesh_), U_));
+  U.ref().primitiveFieldRef() = fvc::reconstruct(c.alphaPhi)().primitiveField() / c.alpha.primitiveField();
+  U.ref().correctBoundaryConditions();
+  return U;
 }
 
 tmp<volVectorField> averagedFlow::vorticity() const {

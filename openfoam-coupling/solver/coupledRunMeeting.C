@@ -191,7 +191,8 @@ int coupledRun::meet(const link::Meeting& meeting, const link::ParticleArrays& p
   checkFinite(meeting);
 
   exchange::FlowFields fields;
-  fields.velocity = &flow_->U();
+  const tmp<volVectorField> velocity(flow_->velocityOfFluxes());
+  fields.velocity = &velocity();
   fields.fraction = &flow_->alpha();
   told.complete(flow_->alpha(), time_.deltaTValue() / interval_, fields);
   fields.share = &forceShare;

@@ -79,7 +79,8 @@ int coupledRun::meetAhead(const link::Meeting& meeting, const link::ParticleArra
     fields.pressureGradient = nullptr;
   if (!samples.stress_divergence)
     fields.stressDivergence = nullptr;
-  fields.velocity = &flow_->U();
+  const tmp<volVectorField> velocity(flow_->velocityOfFluxes());
+  fields.velocity = &velocity();
   fields.fraction = &flow_->alpha();
   const scalarField assumedSolid(solid_);
   const bool start = first && time_.value() <= SMALL;
