@@ -16,7 +16,6 @@ namespace {
 volatile std::sig_atomic_t g_received = 0;
 unsigned g_patience = 0;
 char g_late[512];
-char g_fault[512];
 
 void remember(int number) {
   if (g_received != 0)
@@ -30,24 +29,7 @@ void too_late(int) {
   _exit(EXIT_FAILURE);
 }
 
-void end_at_fault(int) {
-  (void)!write(STDERR_FILENO, g_fault, std::strlen(g_fault));
-  _exit(EXIT_FAILURE);
-}
-
 } // namespace
-
-void end_on_arithmetic_fault(const char* program) {
-  std::strncpy(g_fault, program, sizeof g_fault / 4);
-  std::strncat(
-      g_fault,
-      ": error: the run has blown up (a division by zero, an overflow or a value that is no number): reduce deltaT "
-      "and the DEM time step together, or every, and go on from the last checkpoint with -resume\n",
-      sizeof g_fault / 2);
-  struct sigaction action = {};
-  action.sa_handler = end_at_fault;
-  sigaction(SIGFPE, &action, nullptr);
-}
 
 void catch_stop_signals(const char* program, unsigned patience) {
   g_patience = patience;

@@ -9,10 +9,6 @@ namespace eccentra::link {
 /// `patience` seconds after the first one, the process ends with one sentence and a non-zero code.
 void catch_stop_signals(const char* program, unsigned patience = 4);
 
-/// A floating-point exception ends the process with one sentence and a non-zero code, at once: MPI ends the other
-/// ranks, and the other side of the link sees the connection close.
-void end_on_arithmetic_fault(const char* program);
-
 /// The first signal that has come, or 0.
 int stop_signal();
 

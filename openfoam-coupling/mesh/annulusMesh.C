@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // annulusMesh: system/annulusMeshDict -> constant/polyMesh and constant/g of an inclined eccentric annulus.
 #include "annulus_grid.h"
+#include "solver/arithmeticFault.H"
 #include "solver/inputError.H"
 
 #include "Time.H"
@@ -234,6 +235,8 @@ int main(int argc, char* argv[]) {
   argList::noBanner();
   argList::addOption("dict", "file", "read this instead of system/annulusMeshDict");
   const argList args(argc, argv);
+  eccentra::endOnArithmeticFault("annulusMesh: error: a number that is read is out of range (a division by zero or an "
+                                 "overflow): correct it in annulusMeshDict, controlDict or their FoamFile headers\n");
   runReportingErrors("annulusMesh", [&] { run(args); });
   return 0;
 }

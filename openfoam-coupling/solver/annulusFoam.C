@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // annulusFoam: flow of a generalised-Newtonian fluid in an annulus (or any other mesh), alone or with particles.
+#include "arithmeticFault.H"
 #include "averagedFlow.H"
 #include "coupledRun.H"
 #include "flowProgress.H"
@@ -28,6 +29,9 @@ void run(const argList& args) {
   averagedFlow flow(mesh, averagedFlow::particles::none);
   timeStepControl timeStep(runTime);
   flowProgress progress(runTime, flow, args.found("verbose"));
+  eccentra::endOnArithmeticFault(
+      "annulusFoam: error: the flow has blown up (a division by zero, an overflow or a value "
+      "that is no number): reduce deltaT, or check the numbers of the boundary conditions\n");
   while (runTime.run()) {
     timeStep.adjust(flow.CourantNo());
     ++runTime;
@@ -47,6 +51,8 @@ int main(int argc, char* argv[]) {
   argList::addBoolOption("verbose", "print the residuals of every linear solve");
   argList::addBoolOption("resume", "go on from the newest complete checkpoint of a coupled run (docs/checkpoints.md)");
   const argList args(argc, argv);
+  eccentra::endOnArithmeticFault("annulusFoam: error: a number that is read is out of range (a division by zero or an "
+                                 "overflow): correct it in the dictionaries, the fields or their FoamFile headers\n");
   runReportingErrors("annulusFoam", [&] { run(args); });
   return 0;
 }

@@ -3,6 +3,7 @@
 // A coupled run from its dictionary to its end, over either link.
 #include "coupledRun.H"
 
+#include "arithmeticFault.H"
 #include "demHost.h"
 #include "fluidCheckpoint.H"
 #include "hostGuards.H"
@@ -100,7 +101,6 @@ void coupledRun::run() {
     throw inputError(properties_, "report", reportEvery(), "give a whole number of meetings, at least 1");
   const runningMpi mpi;
   link::catch_stop_signals("annulusFoam");
-  link::end_on_arithmetic_fault("annulusFoam");
   if (link == "solver")
     hostScript();
   else
@@ -155,6 +155,9 @@ link::FluidTerms coupledRun::agree(const link::DemTerms& dem) {
     fluidCheckpoint::begin(time_, resume_ || dem.resumes.step >= 0);
   if (!flow_)
     flow_ = std::make_unique<averagedFlow>(mesh_, averagedFlow::particles::coupled);
+  endOnArithmeticFault(
+      "annulusFoam: error: the run has blown up (a division by zero, an overflow or a value that is no number): reduce "
+      "deltaT and the DEM time step together, or every, and go on from the last checkpoint with -resume\n");
   link::FluidTerms terms;
   terms.time_step = interval_;
   terms.domain = extentsOf(mesh_);
