@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <unordered_map>
 
 namespace eccentra::cluster {
@@ -21,6 +22,18 @@ void ContactList::clear(std::size_t pairs) {
   id.clear();
   for (auto& d : displacement)
     d.clear();
+}
+
+void ContactList::make_room(std::size_t count) {
+  const std::size_t room = count + count / 8 + 8; // contacts come and go
+  const auto fit = [room](auto& v) {
+    if (v.capacity() > 2 * room)
+      std::remove_reference_t<decltype(v)>().swap(v);
+    v.reserve(room);
+  };
+  fit(id);
+  for (auto& d : displacement)
+    fit(d);
 }
 
 NearPairs::NearPairs(LAMMPS* lmp, FixBodies& bodies, FixContactHistory& history)
@@ -208,6 +221,16 @@ void NearPairs::note_apart(int pair, double room) {
 
 void NearPairs::take_history() {
   contacts.clear(pairs.size());
+  // Lists that grow as they are filled would take up to twice the memory.
+  std::size_t count = 0;
+  for (const NearPair& p : pairs) {
+    const bool a_is_local = p.a < atom->nlocal;
+    const int partner = a_is_local ? p.tag_b : p.tag_a;
+    for (const Touch& touch : history_.touches(a_is_local ? p.a : p.b))
+      count += touch.partner == partner;
+  }
+  contacts.make_room(count);
+  next.make_room(count);
   std::vector<const Touch*> found;
   for (std::size_t n = 0; n < pairs.size(); ++n) {
     const NearPair& p = pairs[n];

@@ -71,6 +71,8 @@ struct ContactList {
   std::vector<int> id;
   std::vector<double> displacement[3];
   void clear(std::size_t pairs);
+  /// Makes room for `count` contacts and some more, or gives back what is far too much.
+  void make_room(std::size_t count);
   int size() const { return static_cast<int>(id.size()); }
 };
 

@@ -175,8 +175,11 @@ void PairGranCluster::search_candidates(NearPair& p, const RelativePose& pose, c
   const float margin = static_cast<float>(2 * round_off * p.range());
   const SearchResult found = search_.search(*p.surface_a, extra_a, *p.surface_b, extra_b, pose, skin + margin);
   if (p.search == NearPair::not_yet) {
-    p.search = static_cast<int>(near_->searches.size());
-    near_->searches.emplace_back();
+    std::vector<PairSearch>& searches = near_->searches;
+    p.search = static_cast<int>(searches.size());
+    if (searches.size() == searches.capacity())
+      searches.reserve(searches.size() + searches.size() / 4 + 64);
+    searches.emplace_back();
   }
   PairSearch& search = near_->searches[p.search];
   p.skin = found.slack - margin;
