@@ -21,15 +21,11 @@ struct alignas(64) BodyState {
   double unused = 0;
   Double4 column[3] = {};         ///< of the rotation body to world
   double inverse_inertia[6] = {}; ///< of the inertia tensor per unit mass, world frame: xx yy zz xy xz yz [1/m2]
-  Float4 row[3] = {};             ///< of the rotation, single precision: this only preselects
 
   /// rotation: row-major, body to world.
   void turn(const double* rotation) {
-    for (int k = 0; k < 3; ++k) {
-      row[k] = Float4{static_cast<float>(rotation[3 * k]), static_cast<float>(rotation[3 * k + 1]),
-                      static_cast<float>(rotation[3 * k + 2]), 0.f};
+    for (int k = 0; k < 3; ++k)
       column[k] = Double4{rotation[k], rotation[3 + k], rotation[6 + k], 0.};
-    }
   }
 
   /// inverse_principal: 1 over the principal moments of inertia per unit mass, not all the same; after turn().
@@ -43,6 +39,8 @@ struct alignas(64) BodyState {
     }
   }
 };
+
+static_assert(sizeof(BodyState) == 256, "four cache lines");
 
 /// Forces on a body that contacts add up; fourth lanes are 0.
 struct alignas(64) BodyForce {

@@ -29,13 +29,14 @@ struct RelativePose {
   RelativePose() = default;
   /// offset: from A's centre to B's [m], world frame.
   RelativePose(const BodyState& a, const BodyState& b, const double* offset) {
-    Float4 full[3];
-    for (int k = 0; k < 3; ++k) {
-      full[k] = b.row[k];
-      full[k][3] = static_cast<float>(offset[k]);
+    Float4 full[3]; // B's rotation by rows, and the offset
+    for (int k = 0; k < 3; ++k)
+      full[k] = Float4{static_cast<float>(b.column[0][k]), static_cast<float>(b.column[1][k]),
+                       static_cast<float>(b.column[2][k]), static_cast<float>(offset[k])};
+    for (int i = 0; i < 3; ++i) {
+      const Float4 axis = __builtin_convertvector(a.column[i], Float4);
+      row[i] = axis[0] * full[0] + axis[1] * full[1] + axis[2] * full[2];
     }
-    for (int i = 0; i < 3; ++i)
-      row[i] = a.row[0][i] * full[0] + a.row[1][i] * full[1] + a.row[2][i] * full[2];
   }
 
   /// How far at most matter of B within `radius` of its centre has moved in A's frame since the pose `before` [m]. A
