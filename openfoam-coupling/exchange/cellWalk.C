@@ -3,14 +3,14 @@
 // Walks through the face planes of convex cells.
 #include "cellWalk.H"
 
+#include "sharedPatches.H"
+
 #include "cyclicPolyPatch.H"
-#include "processorCyclicPolyPatch.H"
 #include "processorPolyPatch.H"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <string>
+#include <iterator>
 
 namespace eccentra::exchange {
 
@@ -31,10 +31,8 @@ constexpr double kNoPlane = Foam::GREAT;
 
 cellWalk::cellWalk(const Foam::fvMesh& mesh)
     : mesh_(mesh), search_(mesh), patchOfBoundaryFace_(mesh.nFaces() - mesh.nInternalFaces()),
-      shared_(Foam::Pstream::nProcs()) {
+      shared_(sharedPatches(mesh)) {
   const Foam::polyBoundaryMesh& patches = mesh.boundaryMesh();
-  // Two ranks may share one plain and several periodic processor patches; the name of the periodic pair orders them.
-  std::vector<std::multimap<std::string, label>> named(shared_.size());
   forAll(patches, patchi) {
     const Foam::polyPatch& patch = patches[patchi];
     for (label i = 0; i < patch.size(); ++i)
@@ -43,22 +41,7 @@ cellWalk::cellWalk(const Foam::fvMesh& mesh)
       FatalErrorInFunction << "patch " << patch.name()
                            << " is periodic by rotation, but coupled particles need translations: change the mesh"
                            << Foam::exit(Foam::FatalError);
-    if (Foam::isA<Foam::processorPolyPatch>(patch)) {
-      std::string key;
-      if (Foam::isA<Foam::processorCyclicPolyPatch>(patch)) {
-        const auto& periodic = Foam::refCast<const Foam::processorCyclicPolyPatch>(patch);
-        const auto& referred = Foam::refCast<const Foam::cyclicPolyPatch>(periodic.referPatch());
-        key = std::min(referred.name(), referred.neighbPatch().name()) + (referred.owner() ? ":a" : ":b");
-        // The two halves of a pair meet each other: the partner of "a" is "b".
-        if (Foam::refCast<const Foam::processorPolyPatch>(patch).neighbProcNo() < Foam::Pstream::myProcNo())
-          key = std::min(referred.name(), referred.neighbPatch().name()) + (referred.owner() ? ":b" : ":a");
-      }
-      named[Foam::refCast<const Foam::processorPolyPatch>(patch).neighbProcNo()].emplace(key, patchi);
-    }
   }
-  for (std::size_t r = 0; r < named.size(); ++r)
-    for (const auto& entry : named[r])
-      shared_[r].push_back(entry.second);
   // Built here by all ranks together, as their construction may communicate.
   mesh_.cellCentres();
   mesh_.cells();

@@ -4,6 +4,7 @@
 #include "flowReading.H"
 
 #include "syncTools.H"
+#include "volFields.H"
 
 namespace eccentra::exchange {
 

@@ -26,6 +26,9 @@ std::array<double, 3> sumOverRanks(const vector& v) {
   return {sum.x(), sum.y(), sum.z()};
 }
 
+/// Lanes of what particles bring.
+constexpr int kVolume = 0, kImpulse = 1, kDrag = 4, kBrought = 5;
+
 /// Value at a point: that of its cell, with the gradient there.
 template <class Value, class Gradient>
 Value linear(const Value& value, const Gradient& gradient, const vector& fromCentre) {
@@ -36,8 +39,7 @@ Value linear(const Value& value, const Gradient& gradient, const vector& fromCen
 
 particleExchange::particleExchange(const fvMesh& mesh, const ExchangeSettings& settings)
     : mesh_(mesh), settings_(settings), guests_(mesh), overflow_(mesh, settings.mostSolid),
-      solidGuess_(mesh.nCells(), Zero), dragGuess_(mesh.nCells(), Zero), solidVolume_(mesh.nCells(), Zero),
-      pressureOwed_(mesh.nCells()), stressOwed_(mesh.nCells()) {
+      solidVolume_(mesh.nCells(), Zero), pressureOwed_(mesh.nCells()), stressOwed_(mesh.nCells()) {
   if (!(settings.mostSolid > 0 && settings.mostSolid < 1))
     throw wrong("mostSolid", settings.mostSolid, "give a fraction between 0 and 1, such as 0.74");
   if (!(settings.fractionFloor >= 0 && settings.fractionFloor < 1))
@@ -55,51 +57,48 @@ particleExchange::particleExchange(const fvMesh& mesh, const ExchangeSettings& s
     sharing_ = std::make_unique<vertexSharing>(mesh);
     reading_ = std::make_unique<flowReading>(mesh);
   }
-  for (auto* guesses : {&forceGuess_, &pressureGuess_, &stressGuess_})
-    for (scalarField& guess : *guesses)
-      guess.setSize(mesh.nCells(), Zero);
 }
 
 std::vector<scalarField*> particleExchange::memory() {
-  std::vector<scalarField*> guesses = {&solidGuess_, &dragGuess_};
-  for (auto* triple : {&forceGuess_, &pressureGuess_, &stressGuess_})
-    for (scalarField& guess : *triple)
-      guesses.push_back(&guess);
-  pressureOwed_.addMemory(guesses);
-  stressOwed_.addMemory(guesses);
-  return guesses;
+  std::vector<scalarField*> fields;
+  pressureOwed_.addMemory(fields);
+  stressOwed_.addMemory(fields);
+  return fields;
 }
 
-template <class Amount> scalarField particleExchange::gather(Amount amount) const {
+FieldBundle<kWide> particleExchange::gather() const {
   const std::vector<Guest>& here = guests_.here();
+  const auto amountsOf = [](const Guest& guest) {
+    Bundled<kWide> amounts{};
+    amounts.at[kVolume] = guest.volume;
+    for (int k = 0; k < 3; ++k)
+      amounts.at[kImpulse + k] = guest.impulse[k];
+    amounts.at[kDrag] = guest.drag;
+    return amounts;
+  };
   if (!sharing_) {
-    scalarField cells(mesh_.nCells(), Zero);
+    FieldBundle<kWide> cells(mesh_.nCells(), Bundled<kWide>{});
     for (const Guest& guest : here)
-      cells[guest.at.cell] += amount(guest);
+      cells[guest.at.cell].at += amountsOf(guest).at;
     return cells;
   }
-  SharedField shared = sharing_->empty();
+  SharedFields<kWide> shared = sharing_->empty<kWide>();
   for (std::size_t g = 0; g < here.size(); ++g)
-    vertexSharing::put(shares_[g], amount(here[g]), shared);
-  return sharing_->collect(shared);
+    vertexSharing::put(shares_[g], amountsOf(here[g]), shared);
+  sharing_->collect(shared);
+  return std::move(shared.cells);
 }
 
-double particleExchange::valueAt(const Guest& guest, const SharedField& field) const {
-  return sharing_ ? vertexSharing::read(shares_[&guest - guests_.here().data()], field) : field.cells[guest.at.cell];
-}
-
-void particleExchange::soften(scalarField& amount) const {
+void particleExchange::soften(FieldBundle<kWide>& amounts) const {
   if (!sharing_)
     return;
-  SharedField shared = sharing_->empty();
-  shared.aroundCells = amount;
-  amount = sharing_->collect(shared);
-}
-
-void particleExchange::spread(scalarField& amount, scalarField& perVolume) {
-  if (diffusion_) {
-    diffusion_->spread(amount, perVolume);
-    amount = perVolume * mesh_.V();
+  SharedFields<kWide> shared = sharing_->empty<kWide>();
+  shared.aroundCells = amounts;
+  sharing_->collect(shared);
+  for (std::size_t cell = 0; cell < amounts.size(); ++cell) {
+    const double volume = amounts[cell].at[kVolume];
+    amounts[cell] = shared.cells[cell];
+    amounts[cell].at[kVolume] = volume;
   }
 }
 
@@ -110,8 +109,16 @@ void particleExchange::deposit(const link::ParticleArrays& particles, double ela
   if (sharing_)
     for (const Guest& guest : guests_.here())
       shares_.push_back(sharing_->sharesOf(guest.at.position, guest.at.cell));
-  solidVolume_ = gather([](const Guest& guest) { return guest.volume; });
-  spread(solidVolume_, solidGuess_);
+  FieldBundle<kWide> amounts = gather();
+  soften(amounts);
+  if (diffusion_)
+    diffusion_->spread(amounts, kBrought);
+  const auto component = [&](int lane) {
+    scalarField values(mesh_.nCells());
+    forAll(values, cell) values[cell] = amounts[cell].at[lane];
+    return values;
+  };
+  solidVolume_ = component(kVolume);
   balance_.fits = overflow_.settle(solidVolume_);
   solid = solidVolume_ / mesh_.V();
 
@@ -120,19 +127,15 @@ void particleExchange::deposit(const link::ParticleArrays& particles, double ela
   if (force)
     force->setSize(mesh_.nCells());
   for (int k = 0; k < 3 && force; ++k) {
-    scalarField impulse = gather([k](const Guest& guest) { return guest.impulse[k]; });
-    soften(impulse);
-    spread(impulse, forceGuess_[k]);
+    scalarField impulse(component(kImpulse + k));
     overflow_.spread(impulse);
     meshImpulse[k] = sum(impulse);
     force->replace(k, -rate * impulse / mesh_.V());
   }
   if (drag) {
-    scalarField dragAmount = gather([](const Guest& guest) { return guest.drag; });
-    soften(dragAmount);
-    spread(dragAmount, dragGuess_);
+    scalarField dragAmount(component(kDrag));
     overflow_.spread(dragAmount);
-    // The linear solver's tolerance may leave a drag coefficient of -1e-20 where no particle is.
+    // The tolerance of the diffusion may leave a drag coefficient of -1e-20 where no particle is.
     *drag = rate * max(dragAmount, 0.0) / mesh_.V();
   }
 
@@ -151,21 +154,23 @@ void particleExchange::deposit(const link::ParticleArrays& particles, double ela
   balance_.meshImpulse = sumOverRanks(meshImpulse);
 }
 
-particleExchange::Readable particleExchange::adjointOf(const vectorField& field, std::array<scalarField, 3>& guess) {
-  Readable readable;
-  for (int k = 0; k < 3; ++k) {
-    scalarField component(field.component(k));
-    overflow_.sample(component);
-    if (diffusion_) {
-      diffusion_->sample(component, guess[k]);
-      component = guess[k];
+template <int width>
+SharedFields<width> particleExchange::readable(const std::vector<const vectorField*>& fields) const {
+  SharedFields<width> shared;
+  if (sharing_)
+    shared = sharing_->empty<width>();
+  shared.cells.assign(mesh_.nCells(), Bundled<width>{});
+  for (std::size_t f = 0; f < fields.size(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      scalarField component(fields[f]->component(k));
+      overflow_.sample(component);
+      forAll(component, cell) shared.cells[cell].at[3 * f + k] = component[cell];
     }
-    if (sharing_)
-      readable[k] = sharing_->readable(component);
-    else
-      readable[k].cells = component;
-  }
-  return readable;
+  if (diffusion_)
+    diffusion_->sample(shared.cells, 3 * static_cast<int>(fields.size()));
+  if (sharing_)
+    sharing_->makeReadable(shared);
+  return shared;
 }
 
 particleExchange::ToldFields particleExchange::toldFields(const FlowFields& flow, const fluid::FluidSamples& samples) {
@@ -244,27 +249,37 @@ particleExchange::FlowAtGuests particleExchange::flowAtGuests(const FlowFields& 
 
 void particleExchange::sample(const FlowFields& flow, const link::ParticleArrays& particles,
                               const fluid::FluidSamples& samples) {
-  const FlowAtGuests atGuests(flowAtGuests(flow, samples));
   const ToldFields told = toldFields(flow, samples);
-  Readable pressure, stress;
+  if (samples.pressure_gradient && samples.stress_divergence)
+    sampleAt<kWide>(flow, told, particles, samples);
+  else
+    sampleAt<kNarrow>(flow, told, particles, samples);
+  balanceForces(told, particles, samples);
+}
+
+template <int width>
+void particleExchange::sampleAt(const FlowFields& flow, const ToldFields& told, const link::ParticleArrays& particles,
+                                const fluid::FluidSamples& samples) {
+  const FlowAtGuests atGuests(flowAtGuests(flow, samples));
+  std::vector<const vectorField*> forces;
   if (samples.pressure_gradient)
-    pressure = adjointOf(told.pressureGradient, pressureGuess_);
+    forces.push_back(&told.pressureGradient);
   if (samples.stress_divergence)
-    stress = adjointOf(told.stressDivergence, stressGuess_);
+    forces.push_back(&told.stressDivergence);
+  SharedFields<width> shared;
+  if (!forces.empty())
+    shared = readable<width>(forces);
 
   const int perCentre = (samples.velocity ? 3 : 0) + (samples.fraction ? 1 : 0) + (samples.vorticity ? 3 : 0);
-  const int perPoint = (samples.pressure_gradient ? 3 : 0) + (samples.stress_divergence ? 3 : 0);
+  const int perPoint = 3 * static_cast<int>(forces.size());
   const auto put = [](double*& at, const vector& v) {
     for (int k = 0; k < 3; ++k)
       *at++ = v[k];
   };
-  const auto putForce = [this](double*& at, const Guest& guest, const Readable& force) {
-    for (int k = 0; k < 3; ++k)
-      *at++ = guest.weight * valueAt(guest, force[k]);
-  };
   const auto fill = [&](const Guest& guest, double* at) {
+    const PointShares* shares = sharing_ ? &shares_[&guest - guests_.here().data()] : nullptr;
     if (guest.centre) {
-      const PointFlow here(atGuests.at(guest, sharing_ ? &shares_[&guest - guests_.here().data()] : nullptr));
+      const PointFlow here(atGuests.at(guest, shares));
       if (samples.velocity)
         put(at, here.velocity);
       if (samples.fraction)
@@ -272,10 +287,15 @@ void particleExchange::sample(const FlowFields& flow, const link::ParticleArrays
       if (samples.vorticity)
         put(at, 2.0 * (*skew(atGuests.gradU()[guest.at.cell])));
     }
-    if (samples.pressure_gradient)
-      putForce(at, guest, pressure);
-    if (samples.stress_divergence)
-      putForce(at, guest, stress);
+    if (perPoint > 0) {
+      Bundled<width> values;
+      if (shares)
+        vertexSharing::read(*shares, shared, values);
+      else
+        values = shared.cells[guest.at.cell];
+      for (int k = 0; k < perPoint; ++k)
+        *at++ = guest.weight * values.at[k];
+    }
   };
   for (std::size_t i = 0; i < particles.count; ++i)
     for (int k = 0; k < 3; ++k) {
@@ -303,7 +323,6 @@ void particleExchange::sample(const FlowFields& flow, const link::ParticleArrays
         samples.stress_divergence[row][k] += *point++;
   };
   guests_.answer(perCentre, perPoint, fill, add, particles.ticket);
-  balanceForces(told, particles, samples);
 }
 
 void particleExchange::balanceForces(const ToldFields& told, const link::ParticleArrays& particles,

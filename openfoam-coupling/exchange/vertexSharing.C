@@ -4,45 +4,106 @@
 #include "vertexSharing.H"
 
 #include "cellPointWeight.H"
+#include "globalMeshData.H"
+#include "polyMeshTetDecomposition.H"
 #include "syncTools.H"
+#include "volFields.H"
 
 #include <algorithm>
-#include <utility>
+#include <cmath>
 
 namespace eccentra::exchange {
 
 using namespace Foam;
 
-template <class Visit> void vertexSharing::forVertices(Visit visit) const {
-  const labelListList& vertices = mesh_.cellPoints();
-  std::size_t at = 0;
-  forAll(vertices, cell) for (const label vertex : vertices[cell]) visit(cell, vertex, at++);
-}
+namespace {
+
+/// A point belongs to a tetrahedron if no weight is below this.
+constexpr double kLeastWeight = -1e-12;
+
+/// How globalMeshData adds up values that no rotation changes.
+template <int width> using Packet = FixedList<scalar, width>;
+template <int width> struct AddPackets {
+  void operator()(Packet<width>& sum, const Packet<width>& other) const {
+    for (int k = 0; k < width; ++k)
+      sum[k] += other[k];
+  }
+};
+struct KeepAsTheyAre {
+  template <class Type> void operator()(const vectorTensorTransform&, const bool, List<Type>&) const {}
+};
+
+} // namespace
 
 vertexSharing::vertexSharing(const fvMesh& mesh) : mesh_(mesh) {
   // Made by all ranks together, before any of them asks for the shares of a point.
   mesh.tetBasePtIs();
+  mesh.globalData().globalTransforms();
+  mesh.globalData().globalPointSlavesMap();
   scalarField sums(mesh.nPoints(), Zero);
-  forVertices([&](label cell, label vertex, std::size_t) {
-    weights_.push_back(1.0 / mag(mesh.points()[vertex] - mesh.cellCentres()[cell]));
-    sums[vertex] += weights_.back();
-  });
+  begin_.push_back(0);
+  tetrahedraBegin_.push_back(0);
+  forAll(mesh.cellPoints(), cell) {
+    for (const label vertex : mesh.cellPoints()[cell]) {
+      vertices_.push_back(vertex);
+      weights_.push_back(1.0 / mag(mesh.points()[vertex] - mesh.cellCentres()[cell]));
+      sums[vertex] += weights_.back();
+    }
+    begin_.push_back(static_cast<label>(vertices_.size()));
+    for (const tetIndices& tetrahedron : polyMeshTetDecomposition::cellTetIndices(mesh, cell))
+      for (const label vertex : tetrahedron.faceTriIs(mesh))
+        tetrahedra_.push_back(vertex);
+    tetrahedraBegin_.push_back(static_cast<label>(tetrahedra_.size()));
+  }
   syncTools::syncPointList(mesh, sums, plusEqOp<scalar>(), scalar(0));
-  forVertices([&](label, label vertex, std::size_t at) { weights_[at] /= sums[vertex]; });
+  for (std::size_t k = 0; k < weights_.size(); ++k)
+    weights_[k] /= sums[vertices_[k]];
+}
+
+bool vertexSharing::findTetrahedron(const point& position, label cell, double* weights, label* vertex) const {
+  const point& centre = mesh_.cellCentres()[cell];
+  const pointField& points = mesh_.points();
+  const vector p(position - centre);
+  for (label k = tetrahedraBegin_[cell]; k < tetrahedraBegin_[cell + 1]; k += 3) {
+    // Cramer's rule; volumes of tetrahedra that leave out one corner in turn.
+    const vector a(points[tetrahedra_[k]] - centre), b(points[tetrahedra_[k + 1]] - centre),
+        c(points[tetrahedra_[k + 2]] - centre);
+    const vector bc(b ^ c);
+    const double volume = a & bc;
+    if (std::abs(volume) < SMALL * mesh_.V()[cell])
+      continue;
+    const double ofA = (p & bc) / volume;
+    if (ofA < kLeastWeight)
+      continue;
+    const vector ap(a ^ p);
+    const double ofB = (c & ap) / volume, ofC = -(b & ap) / volume, ofCentre = 1 - ofA - ofB - ofC;
+    if (ofB < kLeastWeight || ofC < kLeastWeight || ofCentre < kLeastWeight)
+      continue;
+    const double found[] = {ofCentre, ofA, ofB, ofC};
+    std::copy_n(found, 4, weights);
+    std::copy_n(&tetrahedra_[k], 3, vertex);
+    return true;
+  }
+  return false;
 }
 
 PointShares vertexSharing::sharesOf(const double* position, label cell) const {
   // Barycentric weights in the tetrahedron of the cell's centre and three vertices of a face that holds the point.
-  const cellPointWeight found(mesh_, vector(position[0], position[1], position[2]), cell);
-  double weight[4], sum = 0;
-  for (int k = 0; k < 4; ++k)
-    sum += weight[k] = std::max(found.weights()[k], 0.0);
   PointShares shares;
   shares.cell = cell;
-  for (int k = 0; k < 3; ++k) {
-    shares.vertex[k] = found.faceVertices()[k];
-    shares.toVertex[k] = weight[k + 1] / sum;
+  double weight[4], sum = 0;
+  const point place(position[0], position[1], position[2]);
+  if (!findTetrahedron(place, cell, weight, shares.vertex)) {
+    const cellPointWeight nearest(mesh_, place, cell);
+    for (int k = 0; k < 4; ++k)
+      weight[k] = nearest.weights()[k];
+    for (int k = 0; k < 3; ++k)
+      shares.vertex[k] = nearest.faceVertices()[k];
   }
+  for (double& w : weight)
+    sum += w = std::max(w, 0.0);
+  for (int k = 0; k < 3; ++k)
+    shares.toVertex[k] = weight[k + 1] / sum;
   // Near the centre the cell would keep all: half of that goes around it, as near its faces.
   const double centre = weight[0] / sum;
   shares.toVertices = 0.5 * centre * centre;
@@ -50,45 +111,52 @@ PointShares vertexSharing::sharesOf(const double* position, label cell) const {
   return shares;
 }
 
-SharedField vertexSharing::empty() const {
-  return {scalarField(mesh_.nCells(), Zero), scalarField(mesh_.nCells(), Zero), scalarField(mesh_.nPoints(), Zero)};
+template <int width> SharedFields<width> vertexSharing::empty() const {
+  const FieldBundle<width> cells(mesh_.nCells(), Bundled<width>{});
+  return {cells, cells, FieldBundle<width>(mesh_.nPoints(), Bundled<width>{})};
 }
 
-void vertexSharing::put(const PointShares& shares, double amount, SharedField& field) {
-  field.cells[shares.cell] += shares.toCell * amount;
-  field.aroundCells[shares.cell] += shares.toVertices * amount;
-  for (int k = 0; k < 3; ++k)
-    field.vertices[shares.vertex[k]] += shares.toVertex[k] * amount;
+template <int width> void vertexSharing::addUp(FieldBundle<width>& vertices) const {
+  const globalMeshData& global = mesh_.globalData();
+  const labelList& coupled = global.coupledPatch().meshPoints();
+  List<Packet<width>> values(coupled.size());
+  forAll(coupled, i) for (int k = 0; k < width; ++k) values[i][k] = vertices[coupled[i]].at[k];
+  globalMeshData::syncData(values, global.globalPointSlaves(), global.globalPointTransformedSlaves(),
+                           global.globalPointSlavesMap(), global.globalTransforms(), AddPackets<width>(),
+                           KeepAsTheyAre());
+  forAll(coupled, i) for (int k = 0; k < width; ++k) vertices[coupled[i]].at[k] = values[i][k];
 }
 
-scalarField vertexSharing::collect(SharedField& field) const {
-  const labelListList& vertices = mesh_.cellPoints();
-  forVertices([&](label cell, label vertex, std::size_t) {
-    field.vertices[vertex] += field.aroundCells[cell] / vertices[cell].size();
-  });
-  syncTools::syncPointList(mesh_, field.vertices, plusEqOp<scalar>(), scalar(0));
-  forVertices(
-      [&](label cell, label vertex, std::size_t at) { field.cells[cell] += weights_[at] * field.vertices[vertex]; });
-  return std::move(field.cells);
+template <int width> void vertexSharing::collect(SharedFields<width>& fields) const {
+  for (std::size_t cell = 0; cell < fields.cells.size(); ++cell) {
+    const auto part = fields.aroundCells[cell].at / double(begin_[cell + 1] - begin_[cell]);
+    for (label k = begin_[cell]; k < begin_[cell + 1]; ++k)
+      fields.vertices[vertices_[k]].at += part;
+  }
+  addUp(fields.vertices);
+  for (std::size_t cell = 0; cell < fields.cells.size(); ++cell)
+    for (label k = begin_[cell]; k < begin_[cell + 1]; ++k)
+      fields.cells[cell].at += weights_[k] * fields.vertices[vertices_[k]].at;
 }
 
-SharedField vertexSharing::readable(const scalarField& cells) const {
-  SharedField field = empty();
-  forVertices([&](label cell, label vertex, std::size_t at) { field.vertices[vertex] += weights_[at] * cells[cell]; });
-  syncTools::syncPointList(mesh_, field.vertices, plusEqOp<scalar>(), scalar(0));
-  const labelListList& vertices = mesh_.cellPoints();
-  forVertices([&](label cell, label vertex, std::size_t) {
-    field.aroundCells[cell] += field.vertices[vertex] / vertices[cell].size();
-  });
-  field.cells = cells;
-  return field;
+template <int width> void vertexSharing::makeReadable(SharedFields<width>& fields) const {
+  for (std::size_t cell = 0; cell < fields.cells.size(); ++cell)
+    for (label k = begin_[cell]; k < begin_[cell + 1]; ++k)
+      fields.vertices[vertices_[k]].at += weights_[k] * fields.cells[cell].at;
+  addUp(fields.vertices);
+  for (std::size_t cell = 0; cell < fields.cells.size(); ++cell) {
+    auto sum = fields.aroundCells[cell].at;
+    for (label k = begin_[cell]; k < begin_[cell + 1]; ++k)
+      sum += fields.vertices[vertices_[k]].at;
+    fields.aroundCells[cell].at = sum / double(begin_[cell + 1] - begin_[cell]);
+  }
 }
 
-double vertexSharing::read(const PointShares& shares, const SharedField& field) {
-  double value = shares.toCell * field.cells[shares.cell] + shares.toVertices * field.aroundCells[shares.cell];
-  for (int k = 0; k < 3; ++k)
-    value += shares.toVertex[k] * field.vertices[shares.vertex[k]];
-  return value;
-}
+template SharedFields<kNarrow> vertexSharing::empty() const;
+template SharedFields<kWide> vertexSharing::empty() const;
+template void vertexSharing::collect(SharedFields<kNarrow>&) const;
+template void vertexSharing::collect(SharedFields<kWide>&) const;
+template void vertexSharing::makeReadable(SharedFields<kNarrow>&) const;
+template void vertexSharing::makeReadable(SharedFields<kWide>&) const;
 
 } // namespace eccentra::exchange
