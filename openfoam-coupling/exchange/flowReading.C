@@ -18,73 +18,86 @@ constexpr double kPartOfMean = 2.0 / 3.0;
 /// Coefficients from means, by repetition: each leaves a third of the error of the shortest wave that cells bear.
 constexpr int kRepetitions = 2;
 
+/// Derivatives of a cell's fields along x, y and z.
+struct Slopes {
+  Bundled<kNarrow> along[3];
+
+  Bundled<kNarrow> over(const vector& way) const {
+    return {way.x() * along[0].at + way.y() * along[1].at + way.z() * along[2].at};
+  }
+};
+
+std::vector<Slopes> slopesOf(label cells, const volTensorField* vectors, const volVectorField* scalars) {
+  std::vector<Slopes> slopes(cells, Slopes{});
+  for (label cell = 0; cell < cells; ++cell)
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; vectors && k < 3; ++k)
+        slopes[cell].along[i].at[k] = (*vectors)[cell][3 * i + k];
+      if (scalars)
+        slopes[cell].along[i].at[flowReading::kScalar] = (*scalars)[cell][i];
+    }
+  return slopes;
+}
+
+FieldBundle<kNarrow> meansOf(label cells, const volVectorField* vectors, const volScalarField* scalars) {
+  FieldBundle<kNarrow> means(cells, Bundled<kNarrow>{});
+  for (label cell = 0; cell < cells; ++cell) {
+    for (int k = 0; vectors && k < 3; ++k)
+      means[cell].at[k] = (*vectors)[cell][k];
+    if (scalars)
+      means[cell].at[flowReading::kScalar] = (*scalars)[cell];
+  }
+  return means;
+}
+
+void add(const FieldBundle<kNarrow>& more, FieldBundle<kNarrow>& fields) {
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    fields[i].at += more[i].at;
+}
+
 } // namespace
 
-flowReading::flowReading(const fvMesh& mesh)
-    : mesh_(mesh), vertexOffset_(mesh.nPoints(), Zero), cellOffset_(mesh.nCells(), Zero) {
-  const labelListList& vertices = mesh.cellPoints();
-  scalarField sums(mesh.nPoints(), Zero);
-  first_.push_back(0);
-  forAll(vertices, cell) {
-    for (const label vertex : vertices[cell]) {
+flowReading::flowReading(const fvMesh& mesh, const vertexSharing& sharing)
+    : mesh_(mesh), sharing_(sharing), vertexOffset_(mesh.nPoints(), Zero), cellOffset_(mesh.nCells(), Zero) {
+  forAll(cellOffset_, cell) {
+    sharing.forVertices(cell, [&](label vertex, double weight) {
       const vector fromCentre(mesh.points()[vertex] - mesh.cellCentres()[cell]);
-      vertex_.push_back(vertex);
-      weight_.push_back(1.0 / mag(fromCentre));
-      sums[vertex] += weight_.back();
-      vertexOffset_[vertex] += weight_.back() * fromCentre;
-      cellOffset_[cell] += fromCentre / vertices[cell].size();
-    }
-    first_.push_back(label(vertex_.size()));
+      vertexOffset_[vertex] += weight * fromCentre;
+      cellOffset_[cell] += fromCentre / sharing.vertexCount(cell);
+    });
   }
-  syncTools::syncPointList(mesh, sums, plusEqOp<scalar>(), scalar(0));
   syncTools::syncPointList(mesh, vertexOffset_, plusEqOp<vector>(), vector::zero);
-  vertexOffset_ /= sums;
-  for (std::size_t at = 0; at < vertex_.size(); ++at)
-    weight_[at] /= sums[vertex_[at]];
 }
 
-template <class Type> Field<Type> flowReading::toVertices(const Field<Type>& cells) const {
-  Field<Type> vertices(mesh_.nPoints(), Zero);
-  forAll(cells, cell) for (label at = first_[cell]; at < first_[cell + 1]; ++at) vertices[vertex_[at]] +=
-      weight_[at] * cells[cell];
-  syncTools::syncPointList(mesh_, vertices, plusEqOp<Type>(), pTraits<Type>::zero);
-  return vertices;
-}
+SharedFields<kNarrow> flowReading::readable(const volVectorField* vectors, const volTensorField* gradVectors,
+                                            const volScalarField* scalars, const volVectorField* gradScalars) const {
+  const label cells = mesh_.nCells();
+  const FieldBundle<kNarrow> means = meansOf(cells, vectors, scalars);
+  const std::vector<Slopes> slopes = slopesOf(cells, gradVectors, gradScalars);
 
-template <class Type>
-void flowReading::aroundCells(ReadableFlow<Type>& flow, const Field<Type>& atVertices,
-                              const Field<Type>& atCells) const {
-  flow.vertices = toVertices(flow.cells) + atVertices;
-  flow.aroundCells = -atCells;
-  forAll(flow.cells, cell) {
-    Type sum = Zero;
-    for (label at = first_[cell]; at < first_[cell + 1]; ++at)
-      sum += flow.vertices[vertex_[at]];
-    flow.aroundCells[cell] += sum / scalar(first_[cell + 1] - first_[cell]);
-  }
-}
-
-template <class Type, class Gradient>
-ReadableFlow<Type> flowReading::spline(const Field<Type>& means, const Field<Gradient>& gradient) const {
   // What a linear field is at a vertex beyond the mean of its cells, and about a cell beyond its centre.
-  const Field<Type> atVertices(vertexOffset_ & toVertices(gradient));
-  const Field<Type> atCells(cellOffset_ & gradient);
-  ReadableFlow<Type> flow;
+  SharedFields<kNarrow> flow = sharing_.empty<kNarrow>();
+  for (label cell = 0; cell < cells; ++cell) {
+    sharing_.forVertices(cell, [&](label vertex, double weight) {
+      flow.vertices[vertex].at += weight * slopes[cell].over(vertexOffset_[vertex]).at;
+    });
+    flow.aroundCells[cell].at = -double(sharing_.vertexCount(cell)) * slopes[cell].over(cellOffset_[cell]).at;
+  }
   flow.cells = means;
-  aroundCells(flow, atVertices, atCells);
+  sharing_.makeReadable(flow);
+
   for (int repetition = 0; repetition < kRepetitions; ++repetition) {
-    flow.cells = means + kPartOfMean * (flow.cells - flow.aroundCells);
-    aroundCells(flow, atVertices, atCells);
+    // All is linear in the coefficients: the change of them brings that of the rest.
+    SharedFields<kNarrow> change = sharing_.empty<kNarrow>();
+    for (label cell = 0; cell < cells; ++cell)
+      change.cells[cell].at =
+          means[cell].at + kPartOfMean * (flow.cells[cell].at - flow.aroundCells[cell].at) - flow.cells[cell].at;
+    sharing_.makeReadable(change);
+    add(change.cells, flow.cells);
+    add(change.aroundCells, flow.aroundCells);
+    add(change.vertices, flow.vertices);
   }
   return flow;
-}
-
-ReadableFlow<scalar> flowReading::readable(const volScalarField& field, const volVectorField& gradient) const {
-  return spline(field.primitiveField(), gradient.primitiveField());
-}
-
-ReadableFlow<vector> flowReading::readable(const volVectorField& field, const volTensorField& gradient) const {
-  return spline(field.primitiveField(), gradient.primitiveField());
 }
 
 } // namespace eccentra::exchange

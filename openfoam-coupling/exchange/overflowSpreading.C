@@ -77,12 +77,12 @@ void overflowSpreading::gather(const Round& part, scalarField& field) const {
 bool overflowSpreading::settle(scalarField& solid) {
   rounds_.clear();
   const scalarField room(largest_ * mesh_.V());
-  if (gSum(solid) > gSum(room))
-    return false;
   for (int round = 0; round < kMostRounds; ++round) {
-    const scalarField part(max(solid - room, 0.0) / max(solid, VSMALL));
     if (gMax(scalarField(solid / room)) <= 1.0 + kSlack)
       return true;
+    if (round == 0 && gSum(solid) > gSum(room))
+      return false;
+    const scalarField part(max(solid - room, 0.0) / max(solid, VSMALL));
     move(part, solid);
     rounds_.push_back(part);
   }

@@ -3,6 +3,8 @@
 // Deposit and sample, with the same weights.
 #include "particleExchange.H"
 
+#include "rankSums.H"
+
 #include "fvcGrad.H"
 
 #include <algorithm>
@@ -20,10 +22,8 @@ std::invalid_argument wrong(const char* keyword, double value, const char* remed
   return std::invalid_argument(std::string(keyword) + " is " + std::to_string(value) + ": " + remedy);
 }
 
-std::array<double, 3> sumOverRanks(const vector& v) {
-  vector sum(v);
-  reduce(sum, sumOp<vector>());
-  return {sum.x(), sum.y(), sum.z()};
+std::array<double, 3> threeOf(const double* values) {
+  return {values[0], values[1], values[2]};
 }
 
 /// Lanes of what particles bring.
@@ -55,7 +55,7 @@ particleExchange::particleExchange(const fvMesh& mesh, const ExchangeSettings& s
     diffusion_ =
         std::make_unique<conservativeDiffusion>(mesh, settings.length, settings.diffusionSteps, settings.tolerance);
     sharing_ = std::make_unique<vertexSharing>(mesh);
-    reading_ = std::make_unique<flowReading>(mesh);
+    reading_ = std::make_unique<flowReading>(mesh, *sharing_);
   }
 }
 
@@ -147,11 +147,21 @@ void particleExchange::deposit(const link::ParticleArrays& particles, double ela
     particleImpulse += own;
     scale += mag(own);
   }
-  balance_.impulseScale = returnReduce(scale, sumOp<scalar>());
-  balance_.particleVolume = returnReduce(volume, sumOp<scalar>());
-  balance_.meshVolume = gSum(solidVolume_);
-  balance_.particleImpulse = sumOverRanks(particleImpulse);
-  balance_.meshImpulse = sumOverRanks(meshImpulse);
+  std::array<double, 9> sums{scale,
+                             volume,
+                             sum(solidVolume_),
+                             particleImpulse.x(),
+                             particleImpulse.y(),
+                             particleImpulse.z(),
+                             meshImpulse.x(),
+                             meshImpulse.y(),
+                             meshImpulse.z()};
+  sumOverRanks(sums);
+  balance_.impulseScale = sums[0];
+  balance_.particleVolume = sums[1];
+  balance_.meshVolume = sums[2];
+  balance_.particleImpulse = threeOf(&sums[3]);
+  balance_.meshImpulse = threeOf(&sums[6]);
 }
 
 template <int width>
@@ -203,23 +213,26 @@ struct PointFlow {
 struct particleExchange::FlowAtGuests {
   const fvMesh& mesh;
   const scalar leastFraction; ///< that a velocity may be divided by
-  const volScalarField* fraction = nullptr;
+  const volScalarField* fraction;
   tmp<volVectorField> flux; ///< alpha U per area; U where the fraction is not known
   tmp<volTensorField> gradU, gradFlux;
   tmp<volVectorField> gradFraction;
-  ReadableFlow<vector> readableFlux;
-  ReadableFlow<scalar> readableFraction;
+  SharedFields<kNarrow> readable; ///< flux and fraction
 
   PointFlow at(const Guest& guest, const PointShares* shares) const {
     const label cell = guest.at.cell;
     const point x(guest.at.position[0], guest.at.position[1], guest.at.position[2]);
     const vector fromCentre(guest.outside ? vector(Zero) : x - mesh.cellCentres()[cell]);
+    Bundled<kNarrow> read{};
+    if (shares && !readable.cells.empty())
+      vertexSharing::read(*shares, readable, read);
     PointFlow here;
     if (fraction)
       here.fraction =
-          shares ? readableFraction.at(*shares) : linear((*fraction)[cell], gradFraction()[cell], fromCentre);
+          shares ? read.at[flowReading::kScalar] : linear((*fraction)[cell], gradFraction()[cell], fromCentre);
     if (flux.valid()) {
-      here.velocity = shares ? readableFlux.at(*shares) : linear(flux()[cell], gradFlux()[cell], fromCentre);
+      here.velocity =
+          shares ? vector(read.at[0], read.at[1], read.at[2]) : linear(flux()[cell], gradFlux()[cell], fromCentre);
       if (fraction)
         here.velocity /= std::max(here.fraction, leastFraction);
     }
@@ -229,7 +242,7 @@ struct particleExchange::FlowAtGuests {
 
 particleExchange::FlowAtGuests particleExchange::flowAtGuests(const FlowFields& flow,
                                                               const fluid::FluidSamples& samples) const {
-  FlowAtGuests at{mesh_, 1.0 - settings_.mostSolid, flow.fraction};
+  FlowAtGuests at{mesh_, 1.0 - settings_.mostSolid, flow.fraction, {}, {}, {}, {}, {}};
   if (samples.vorticity)
     at.gradU = fvc::grad(*flow.velocity);
   if (samples.velocity) {
@@ -240,10 +253,10 @@ particleExchange::FlowAtGuests particleExchange::flowAtGuests(const FlowFields& 
     at.gradFraction = fvc::grad(*flow.fraction);
   else
     at.fraction = nullptr;
-  if (reading_ && samples.velocity)
-    at.readableFlux = reading_->readable(at.flux(), at.gradFlux());
-  if (reading_ && at.fraction)
-    at.readableFraction = reading_->readable(*flow.fraction, at.gradFraction());
+  if (reading_ && (at.flux.valid() || at.fraction))
+    at.readable =
+        reading_->readable(at.flux.valid() ? &at.flux() : nullptr, at.gradFlux.valid() ? &at.gradFlux() : nullptr,
+                           at.fraction, at.gradFraction.valid() ? &at.gradFraction() : nullptr);
   return at;
 }
 
@@ -344,10 +357,13 @@ void particleExchange::balanceForces(const ToldFields& told, const link::Particl
     add(told.pressureGradient, samples.pressure_gradient, pressureOwed_, -1);
   if (samples.stress_divergence)
     add(told.stressDivergence, samples.stress_divergence, stressOwed_, 1);
-  balance_.pressureForceScale = returnReduce(scale, sumOp<scalar>());
-  balance_.meshPressureForce = sumOverRanks(onMesh);
-  balance_.particlePressureForce = sumOverRanks(onParticles);
-  balance_.pendingForce = sumOverRanks(pending);
+  std::array<double, 10> sums{scale,           onMesh.x(),      onMesh.y(),  onMesh.z(),  onParticles.x(),
+                              onParticles.y(), onParticles.z(), pending.x(), pending.y(), pending.z()};
+  sumOverRanks(sums);
+  balance_.pressureForceScale = sums[0];
+  balance_.meshPressureForce = threeOf(&sums[1]);
+  balance_.particlePressureForce = threeOf(&sums[4]);
+  balance_.pendingForce = threeOf(&sums[7]);
 }
 
 } // namespace eccentra::exchange

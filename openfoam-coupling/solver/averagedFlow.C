@@ -11,6 +11,7 @@
 #include "adjustPhi.H"
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
+#include "exchange/rankSums.H"
 #include "fvcCurl.H"
 #include "fvcDdt.H"
 #include "fvcDiv.H"
@@ -222,8 +223,10 @@ void averagedFlow::checkSolidVolume() const {
   if (!p_.needReference()) {
     return;
   }
-  const scalar change = gSum(fvc::ddt(coupled_->alpha)().primitiveField() * mesh_.V().field()) *
-                        mesh_.time().deltaTValue() / gSum(mesh_.V().field());
+  const scalarField& V = mesh_.V().field();
+  std::array<double, 2> sums{sum(fvc::ddt(coupled_->alpha)().primitiveField() * V), sum(V)};
+  eccentra::exchange::sumOverRanks(sums);
+  const scalar change = sums[0] * mesh_.time().deltaTValue() / sums[1];
   if (mag(change) > solidVolumeTolerance) {
     std::ostringstream text;
     text
@@ -435,9 +438,11 @@ tmp<volVectorField> averagedFlow::stressDivergence() const {
 
 vector averagedFlow::superficialVelocity() const {
   const scalarField& V = mesh_.V().field();
-  const vector sum = coupled_.valid() ? gSum(U_.primitiveField() * coupled_->alpha.primitiveField() * V)
-                                      : gSum(U_.primitiveField() * V);
-  return sum / gSum(V);
+  const vector flow =
+      coupled_.valid() ? sum(U_.primitiveField() * coupled_->alpha.primitiveField() * V) : sum(U_.primitiveField() * V);
+  std::array<double, 4> sums{flow.x(), flow.y(), flow.z(), sum(V)};
+  eccentra::exchange::sumOverRanks(sums);
+  return vector(sums[0], sums[1], sums[2]) / sums[3];
 }
 
 scalar averagedFlow::CourantNo() const {

@@ -6,6 +6,8 @@
 #include "calculatedFvPatchFields.H"
 #include "inputError.H"
 
+#include "exchange/rankSums.H"
+
 namespace Foam {
 
 namespace {
@@ -100,19 +102,22 @@ void drivingGradient::solveResponse(const fvVectorMatrix& UEqn, const volScalarF
   response.solve(mesh_.solver(UEqn.psi().name()));
 }
 
-scalar drivingGradient::mean(const scalarField& values, const volScalarField* alpha) const {
-  const scalarField& V = mesh_.V().field();
-  const scalar sum = alpha ? gSum(values * alpha->primitiveField() * V) : gSum(values * V);
-  return sum / gSum(V);
-}
-
 scalar drivingGradient::correct(volVectorField& U, const volScalarField* alpha) {
   if (!controlsVelocity()) {
     return 0;
   }
   const scalarField& w = response_->primitiveField();
-  const scalar perGradient = mean(w, alpha);
-  const scalar dG = (target() - mean(U.primitiveField().component(component_)(), alpha)) / perGradient;
+  // Volume, and integrals of response and velocity of the fluid, in one sum over the ranks.
+  std::array<double, 3> sums{};
+  const scalarField& V = mesh_.V().field();
+  forAll(w, celli) {
+    const scalar fluid = alpha ? (*alpha)[celli] * V[celli] : V[celli];
+    sums[0] += V[celli];
+    sums[1] += fluid * w[celli];
+    sums[2] += fluid * U[celli][component_];
+  }
+  eccentra::exchange::sumOverRanks(sums);
+  const scalar dG = (target() * sums[0] - sums[2]) / sums[1];
   U.primitiveFieldRef() += (dG * axis_) * w;
   U.correctBoundaryConditions();
   G_ += dG;
