@@ -22,7 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFirstLine = "eccentra checkpoint 1";
+/// Rises with every change of what the files of either side hold or mean. 2: the fluid keeps no first guesses.
+constexpr const char* kFirstLine = "eccentra checkpoint 2";
 constexpr const char* kManifest = "manifest";
 /// Longest piece that zlib and write() take at once.
 constexpr std::size_t kPiece = std::size_t(1) << 30;
@@ -142,7 +143,8 @@ std::optional<Manifest> parse(const std::string& path, std::string& why) {
   std::istringstream lines(text->substr(0, seal));
   std::string line;
   if (!std::getline(lines, line) || line != kFirstLine) {
-    why = "'" + path + "' is not one of this version's";
+    why = "'" + path + "' was written by another version of this software ('" + line.substr(0, 60) + "', not '" +
+          kFirstLine + "'): go on with that version, or begin anew";
     return {};
   }
   while (std::getline(lines, line)) {

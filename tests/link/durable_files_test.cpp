@@ -90,6 +90,12 @@ TEST_F(DurableFiles, DamageIsSeen) {
   expect_damaged("never", "is not there");
 }
 
+TEST_F(DurableFiles, AnotherVersionIsNamed) {
+  fs::create_directories("old");
+  std::ofstream("old/manifest") << "eccentra checkpoint 1\nstep 6400\nid 1f\nseal 346a1784\n";
+  expect_damaged("old", "'old/manifest' was written by another version of this software ('eccentra checkpoint 1', not");
+}
+
 TEST_F(DurableFiles, WhatIsNotCommittedIsNotThere) {
   {
     DurableFolder files("640");
