@@ -7,6 +7,7 @@
 #include <vtkAppendPolyData.h>
 #include <vtkCompositeDataIterator.h>
 #include <vtkDataArray.h>
+#include <vtkDummyController.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPOpenFOAMReader.h>
@@ -17,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <regex>
 #include <set>
@@ -77,6 +79,19 @@ std::vector<ParticleFile> find_files(const fs::path& folder, const std::regex& p
   }
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.step < b.step; });
   return files;
+}
+
+/// The last time that a folder of fields holds, -1 if it holds none after the start.
+double latest_time(const fs::path& folder) {
+  double latest = -1;
+  for (const auto& item : fs::directory_iterator(folder)) {
+    const std::string name = item.path().filename().string();
+    char* end = nullptr;
+    const double time = std::strtod(name.c_str(), &end);
+    if (item.is_directory() && *end == '\0' && time > 0)
+      latest = std::max(latest, time);
+  }
+  return latest;
 }
 
 } // namespace
@@ -198,7 +213,11 @@ vtkSmartPointer<vtkUnstructuredGrid> read_flow(const fs::path& folder) {
   const auto reader = vtkSmartPointer<vtkPOpenFOAMReader>::New();
   const std::string control = (folder / "system" / "controlDict").string();
   reader->SetFileName(control.c_str());
-  const bool parts = fs::is_directory(folder / "processor0");
+  // Without a controller, which nobody but MPI sets, VTK 9.1 follows a null pointer where a case is in parts.
+  const auto alone = vtkSmartPointer<vtkDummyController>::New();
+  reader->SetController(alone);
+  const fs::path first_part = folder / "processor0";
+  const bool parts = fs::is_directory(first_part) && latest_time(first_part) > latest_time(folder);
   reader->SetCaseType(parts ? vtkPOpenFOAMReader::DECOMPOSED_CASE : vtkPOpenFOAMReader::RECONSTRUCTED_CASE);
   reader->SkipZeroTimeOff();
   reader->UpdateInformation();

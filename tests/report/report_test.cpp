@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // annulusReport as a program, on a case folder whose numbers are known.
+#include "report/case_data.h"
 #include "report/summary.h"
 #include "support/run_program.h"
 
@@ -9,6 +10,7 @@
 #include <vtkPNGReader.h>
 #include <vtkPointData.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <cmath>
 #include <fstream>
@@ -117,5 +119,39 @@ TEST(Report, LeavesNoServerBehind) {
     EXPECT_FALSE(name == "(Xvfb)" && parent == "1" && state != "Z") << "process " << word;
   }
 }
+
+#ifdef ECCENTRA_TEST_MESH
+constexpr int kTestMeshCells = 6 * 24 * 10; // tests/exchange/mesh
+
+void write_uniform_velocity(const fs::path& time_folder) {
+  write_file(time_folder / "U", "FoamFile { version 2.0; format ascii; class volVectorField; object U; }\n"
+                                "dimensions [0 1 -1 0 0 0 0]; internalField uniform (0 0 3); boundaryField {}\n");
+}
+
+/// Size and largest speed of what read_flow finds.
+void expect_flow(const fs::path& folder, const char* how) {
+  const auto flow = eccentra::report::read_flow(folder);
+  ASSERT_NE(flow, nullptr) << how;
+  EXPECT_EQ(flow->GetNumberOfCells(), kTestMeshCells) << how;
+  double range[2] = {};
+  flow->GetPointData()->GetArray("U")->GetRange(range, 2);
+  EXPECT_FLOAT_EQ(range[0], 3) << how;
+  EXPECT_FLOAT_EQ(range[1], 3) << how;
+}
+
+TEST(Report, ReadsTheFlowWholeAndInParts) {
+  const fs::path folder = make_case("flow");
+  fs::copy(ECCENTRA_TEST_MESH, folder, fs::copy_options::recursive | fs::copy_options::skip_existing);
+  for (const char* part : {"processor0", "processor1"})
+    write_uniform_velocity(folder / part / "0.5");
+  expect_flow(folder, "in parts");
+  const ProgramResult run = report({folder});
+  EXPECT_EQ(run.status, 0) << "signal " << run.signal << "\n" << run.output;
+  write_uniform_velocity(folder / "0.5");
+  expect_flow(folder, "put together");
+  fs::remove_all(folder / "processor0");
+  expect_flow(folder, "whole");
+}
+#endif
 
 } // namespace
