@@ -200,7 +200,8 @@ class Study:
                 for quantity, (what, unit, scale) in SECTION_RESULTS.items():
                     title = f"annulus {point[0]} deg, {point[1]} m/s: {what}"
                     self.group(f"section {point[0]} {point[1]} {quantity}", body, title, unit, wet_levels, of, point,
-                               lambda r, q=quantity, s=scale: r["mean"][q][0] * s, RESTITUTION_SECTION, JUDGED_BY[point[0]] == quantity)
+                               lambda r, q=quantity, s=scale: r["mean"][q][0] * s, RESTITUTION_SECTION, JUDGED_BY[point[0]] == quantity,
+                               lambda r, q=quantity, s=scale: r["mean"][q][1] * s)
         return self.failures
 
     def with_step(self, chosen, restitution):
@@ -223,7 +224,8 @@ class Study:
         return section.section_job(self.build, f"annulus {inclination} deg {velocity} m/s {level.name} seed {seed}", words,
                                    spheres=level.spheres)
 
-    def group(self, scene, body, title, unit, chosen, results, place, value_of, restitution, judged):
+    def group(self, scene, body, title, unit, chosen, results, place, value_of, restitution, judged, error_in_time=None):
+        """`error_in_time` of a run's mean stands where there is one run alone."""
         rows = []
         for level in chosen:
             every = [r for (b, p, name, _), r in results.items() if (b, p, name) == (body, place, level.name)]
@@ -232,6 +234,8 @@ class Study:
             if failed:
                 self.failures.append(f"{title.split(':')[0]}, {level.name}: {failed}")
             value, error = measures.mean_and_error([value_of(r) for r in good])
+            if len(good) == 1 and error_in_time:
+                error = error_in_time(good[0])
             timed = [self.again[body, place, level.name]] if (body, place, level.name) in self.again else good
             mean = lambda of: measures.mean_and_error([of(r) for r in timed])[0]
             critical = self.critical[level.name, restitution]
@@ -253,7 +257,7 @@ class Study:
                       *(row.parts[part] for part in timing.PARTS), row.step * 1e5] for row in group.rows]
             words = group.plain_words()
             if group.judged:
-                lines += [f"{group.title} [{group.unit}], {group.body}: {min((row.runs for row in group.rows if row.runs), default=0)} seeds or more", "",
+                lines += [f"{group.title} [{group.unit}], {group.body}: {min((row.runs for row in group.rows if row.runs), default=0)} seed(s) or more", "",
                           tables.text(header, table), words, ""]
                 if group.candidates() or any(row.failed for row in group.rows):
                     page += [words + "\n"]
@@ -367,7 +371,8 @@ class Study:
         for body in self.bodies:
             judged = [group for group in self.groups if group.body == body and group.judged]
             if judged:
-                page.append(f"Deviation from the finest {body} with its standard error, CPU seconds of a run, and the number of runs (seeds):\n")
+                page.append(f"Deviation from the finest {body} with its standard error (over the seeds; of one run: in time), CPU seconds of a run, "
+                            "and the number of runs (seeds):\n")
             dry_ones = [group for group in judged if group.scene in dry.SCENES]
             for groups in (dry_ones, [group for group in judged if group not in dry_ones]):
                 names = list(dict.fromkeys(row.level.name for group in groups for row in group.rows))
