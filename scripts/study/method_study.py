@@ -138,8 +138,9 @@ class Study:
                           for r in self.rows])
         if not panels:
             return ["## Methods of the coupling\n", "Not run.\n"]
+        in_a_row = math.ceil(len(panels) / len(self.size.inclinations))  # a row of panels for each inclination
         charts.write(self.output / "methods.svg", "What the methods of the coupling cost and change "
-                     f"({', '.join(f'{i} degrees' for i in self.size.inclinations)}, {VELOCITY} m/s, 5 % solid)", panels)
+                     f"({', '.join(f'{i} degrees' for i in self.size.inclinations)}, {VELOCITY} m/s, 5 % solid)", panels, in_a_row)
         return page
 
     def panel(self, inclination, family, rows, reference):
