@@ -77,7 +77,9 @@ void FixFluidCouple::connect() {
   if (link_ != "socket")
     return;
   try {
-    own_peer_ = std::make_unique<link::SocketPeer>(world, link::Address(address_, keys_), patience_);
+    using Rows = link::SocketPeer::Rows;
+    own_peer_ = std::make_unique<link::SocketPeer>(world, link::Address(address_, keys_), patience_,
+                                                   lanes_ ? Rows::on_lanes : Rows::over_root);
   } catch (const link::Refusal& refusal) {
     refuse(refusal.what());
   }
@@ -113,11 +115,11 @@ void FixFluidCouple::read(const std::vector<std::string>& words) {
       if (end == text.c_str() || *end || number < 1 || number > 1000000000L)
         refuse(keyword + " has '" + text + "': give a whole number of " + what + " from 1 on");
       (keyword == "every" ? interval_ : checkpoint_every_) = static_cast<int>(number);
-    } else if (keyword == "overlap") {
+    } else if (keyword == "overlap" || keyword == "lanes") {
       const std::string& text = value("yes or no");
       if (text != "yes" && text != "no")
-        refuse("overlap has '" + text + "': give yes or no");
-      overlap_ = text == "yes";
+        refuse(keyword + " has '" + text + "': give yes or no");
+      (keyword == "overlap" ? overlap_ : lanes_) = text == "yes";
     } else if (keyword == "keys") {
       keys_ = value("a folder made by eccentra-keys");
     } else if (keyword == "timeout" || keyword == "wait") {
@@ -131,15 +133,15 @@ void FixFluidCouple::read(const std::vector<std::string>& words) {
     } else {
       refuse("unknown word '" + keyword +
              "': known are link solver, link socket ADDRESS, every N, checkpoint M, keys FOLDER, timeout SECONDS, "
-             "wait SECONDS and overlap yes|no");
+             "wait SECONDS, overlap yes|no and lanes yes|no");
     }
   }
   if (link_.empty())
     refuse(
         "the word 'link' is missing: add link solver (the fluid solver hosts this script) or link socket ADDRESS (it "
         "runs apart)");
-  if ((waits || !keys_.empty()) && link_ != "socket")
-    refuse("keys, timeout and wait belong to link socket: drop them");
+  if ((waits || !keys_.empty() || !lanes_) && link_ != "socket")
+    refuse("keys, timeout, wait and lanes belong to link socket: drop them");
   if (overlap_ && link_ != "socket")
     refuse(
         "overlap yes belongs to link socket: with link solver particles and fluid share their ranks, which take turns "
@@ -222,6 +224,8 @@ void FixFluidCouple::setup(int) {
   } catch (const link::Refusal& refusal) {
     refuse(refusal.what());
   }
+  if (!agreed_)
+    tell_of_lanes();
   agreed_ = true;
   if (!met_) {
     forces_->reset_reaction();
@@ -231,6 +235,15 @@ void FixFluidCouple::setup(int) {
   countdown_ = interval_;
   plan_checkpoint();
   leave_fluid();
+}
+
+void FixFluidCouple::tell_of_lanes() const {
+  if (comm->me != 0 || !own_peer_ || own_peer_->why_over_root().empty())
+    return;
+  for (FILE* out : {screen, logfile})
+    if (out)
+      std::fprintf(out, "fix fluid/couple '%s': the particles of all ranks travel over rank 0: %s\n", id,
+                   own_peer_->why_over_root().c_str());
 }
 
 void FixFluidCouple::leave_fluid() {

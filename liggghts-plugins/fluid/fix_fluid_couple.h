@@ -54,6 +54,7 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   };
   [[noreturn]] void refuse(const std::string& text);
   void connect();
+  void tell_of_lanes() const;
   void read(const std::vector<std::string>& words);
   link::DemTerms terms() const;
   void meet(double elapsed);
@@ -80,6 +81,7 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   int interval_ = 0;
   int countdown_ = 0;
   bool overlap_ = false;
+  bool lanes_ = true;  ///< ranks send their particles themselves where that is possible
   bool ahead_ = false; ///< with overlap: the fluid takes the step of the present interval
   bool agreed_ = false;
   bool met_ = false;

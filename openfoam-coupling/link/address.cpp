@@ -25,9 +25,11 @@ bool starts_with(const std::string& text, const std::string& part) {
   throw Refusal("address '" + words + "' " + why);
 }
 
-std::string unix_path(const std::string& words, const std::string& path) {
+std::string unix_path(const std::string& words, std::string path, int lane) {
   if (path.empty() || path[0] == '@')
     refuse(words, "has no path: give ipc:///folder/name");
+  if (lane >= 0)
+    path += '.' + std::to_string(lane);
   if (path.size() >= sizeof(sockaddr_un::sun_path))
     refuse(words, "is longer than the " + std::to_string(sizeof(sockaddr_un::sun_path) - 1) +
                       " characters that a Unix socket may have: take a shorter path");
@@ -54,7 +56,7 @@ bool is_loopback(const std::string& host) {
   return *at == '\0';
 }
 
-std::string tcp(const std::string& words, const std::string& rest, bool keys) {
+std::string tcp(const std::string& words, const std::string& rest, bool keys, int lane) {
   const auto colon = rest.rfind(':');
   if (colon == std::string::npos || colon == 0)
     refuse(words, "lacks a host or a port: give tcp://127.0.0.1:PORT");
@@ -73,7 +75,7 @@ std::string tcp(const std::string& words, const std::string& rest, bool keys) {
     refuse(words,
            "can be reached from other machines, which needs keys on both sides: make them with eccentra-keys FOLDER "
            "and name the folder after the word keys, or use ipc:///path or tcp://127.0.0.1:PORT");
-  return "tcp://" + host + ':' + std::to_string(number);
+  return "tcp://" + host + ':' + (lane == 0 ? "*" : std::to_string(lane < 0 ? number : lane));
 }
 
 } // namespace
@@ -81,12 +83,19 @@ std::string tcp(const std::string& words, const std::string& rest, bool keys) {
 std::string endpoint_of(const Address& address) {
   const std::string& words = address.words;
   if (starts_with(words, "ipc://"))
-    return unix_path(words, words.substr(6));
+    return unix_path(words, words.substr(6), address.lane);
   if (starts_with(words, "tcp://"))
-    return tcp(words, words.substr(6), !address.keys.empty());
+    return tcp(words, words.substr(6), !address.keys.empty(), address.lane);
   if (words.find("://") != std::string::npos)
     refuse(words, "is neither ipc:///path nor tcp://host:port");
-  return unix_path(words, words);
+  return unix_path(words, words, address.lane);
+}
+
+bool is_of_this_machine(const Address& address) {
+  const std::string endpoint = endpoint_of(address), tcp = "tcp://";
+  if (!starts_with(endpoint, tcp))
+    return true;
+  return is_loopback(endpoint.substr(tcp.size(), endpoint.rfind(':') - tcp.size()));
 }
 
 void check(const Patience& patience) {

@@ -16,9 +16,11 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <set>
 
@@ -33,6 +35,7 @@ constexpr double kAnswerWithin = 0.6;
 /// Time that the last message of a closing side has to leave [ms].
 constexpr int kLinger = 1000;
 constexpr int kReconnect = 50; ///< [ms]
+constexpr long kLook = 100;    ///< from one look of a caller that waits to the next [ms]
 constexpr int kNobody = -1;
 const char* const kMonitor = "inproc://eccentra-link-monitor";
 
@@ -93,6 +96,7 @@ struct Channel::State {
   Side side;
   std::string address;
   std::string keys; ///< folder
+  int lane;         ///< as in Address
   Patience patience;
   zmq::context_t context;
   std::unique_ptr<KeyGuard> guard; ///< of the fluid side with keys
@@ -107,9 +111,10 @@ struct Channel::State {
   bool heard = false;        ///< it has sent a message
   bool gone = false;
   bool turned_away = false; ///< the other side does not take this one's keys, or has none
+  std::uint64_t bytes = 0;  ///< of messages, both ways
 
   State(Side s, const Address& a, const Patience& p)
-      : side(s), address(a.words), keys(a.keys), patience(p),
+      : side(s), address(a.words), keys(a.keys), lane(a.lane), patience(p),
         socket(context, s == Side::dem ? zmq::socket_type::dealer : zmq::socket_type::router),
         monitor(context, zmq::socket_type::pair) {}
 
@@ -118,7 +123,11 @@ struct Channel::State {
   void open() {
     check(patience);
     keep_memory();
-    const std::string endpoint = endpoint_of({address, keys});
+    Address asked(address, keys);
+    asked.lane = lane;
+    const std::string endpoint = endpoint_of(asked);
+    if (lane >= 0)
+      address = endpoint;
     use_keys();
     socket.set(zmq::sockopt::linger, kLinger);
     socket.set(zmq::sockopt::maxmsgsize, static_cast<int64_t>(wire::most_bytes()));
@@ -256,6 +265,10 @@ struct Channel::State {
   [[noreturn]] void missing() const {
     char seconds[32];
     std::snprintf(seconds, sizeof seconds, "%g", patience.arrival);
+    if (lane >= 0)
+      throw Refusal(std::string(other()) + " did not come to '" + address +
+                    "', which is for one of its ranks, within " + seconds +
+                    " s: see what it printed, or let all rows travel over rank 0 (fix fluid/couple ... lanes no)");
     throw Refusal(std::string(other()) + " did not come to '" + address + "' within " + seconds + " s: start " +
                   (side == Side::dem ? "annulusFoam with link socket and this address"
                                      : "the DEM script with fix fluid/couple link socket and this address") +
@@ -275,11 +288,12 @@ Channel::~Channel() {
 void Channel::send(Message message) {
   State& s = *state_;
   s.read_monitor();
+  s.bytes += message.view().size;
   if (s.gone || !s.send(s.peer_name, message.parts_->zmq))
     s.lost();
 }
 
-Channel::Message Channel::receive() {
+Channel::Message Channel::receive(const std::function<void()>& look) {
   State& s = *state_;
   Message message;
   s.read_monitor();
@@ -287,6 +301,7 @@ Channel::Message Channel::receive() {
     if (s.take(message.parts_->zmq)) {
       if (wire::kind_of(message.view()) == wire::Kind::refusal)
         throw Refusal(wire::decode_refusal(message.view()));
+      s.bytes += message.view().size;
       return message;
     }
     if (s.turned_away && !s.came)
@@ -300,12 +315,25 @@ Channel::Message Channel::receive() {
         s.missing();
       wait = milliseconds(s.patience.arrival - since.count());
     }
+    if (look) {
+      look();
+      wait = wait < 0 ? kLook : std::min(wait, kLook);
+    }
     zmq_pollitem_t items[] = {{s.socket.handle(), 0, ZMQ_POLLIN, 0}, {s.monitor.handle(), 0, ZMQ_POLLIN, 0}};
     if (zmq_poll(items, 2, wait) < 0 && zmq_errno() != EINTR)
       throw Refusal(std::string("the link cannot wait: ") + zmq_strerror(zmq_errno()));
     // Before the next look for messages: what was sent before leaving is still received.
     s.read_monitor();
   }
+}
+
+std::uint32_t Channel::port() const {
+  const std::string bound = state_->socket.get(zmq::sockopt::last_endpoint);
+  return static_cast<std::uint32_t>(std::strtoul(bound.c_str() + bound.rfind(':') + 1, nullptr, 10));
+}
+
+std::uint64_t Channel::bytes() const {
+  return state_->bytes;
 }
 
 void Channel::refuse(const std::string& sentence) noexcept {

@@ -6,6 +6,8 @@
 #include "link/address.h"
 #include "link/wire.h"
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -41,11 +43,17 @@ class Channel {
   /// Throws Refusal if the other side is gone.
   void send(Message message);
   /// The next message. Waits as long as the other side lives; throws Refusal if it does not come, goes, or refuses.
-  Message receive();
+  /// While it waits it calls `look` several times a second, which may throw to end the wait.
+  Message receive(const std::function<void()>& look = {});
   /// Tells the other side why this one goes no further, and closes.
   void refuse(const std::string& sentence) noexcept;
   /// Sends what is left and closes.
   void close() noexcept;
+
+  /// That the fluid side has bound, of a TCP address.
+  std::uint32_t port() const;
+  /// Of the messages that have gone either way.
+  std::uint64_t bytes() const;
 
  private:
   struct State;

@@ -66,6 +66,7 @@ struct Meeting {
   double pack_seconds = 0;      ///< and of packing and unpacking at the last meeting [s]
   std::int64_t steps_done = 0;  ///< DEM steps of the present run
   std::int64_t steps_total = 0; ///< its length
+  std::int64_t number = 0;      ///< counted by the socket link, from 1: what belongs together
   DemTotals totals;
   DemLoad load;
 };

@@ -6,6 +6,7 @@
 #include "link/address.h"
 #include "link/channel.h"
 #include "link/fluid_peer.h"
+#include "link/lanes.h"
 
 #include <mpi.h>
 
@@ -16,7 +17,8 @@
 
 namespace eccentra::link {
 
-/// Rank 0 talks; it deals the particles out evenly over the ranks, from where the fluid takes them to their cells.
+/// Rank 0 talks. Each rank takes the particles that come on its lanes; where there are none, rank 0 deals all out
+/// evenly. From there the fluid takes them to their cells.
 class FluidServer {
  public:
   /// Collective over `ranks`: binds the address. `cells` of this rank's mesh bound what a ticket may name. Throws
@@ -35,11 +37,26 @@ class FluidServer {
   void answer_terms(FluidPeer& fluid, const Command& command);
   void answer_meeting(FluidPeer& fluid, const Command& command);
   void answer_checkpoint(FluidPeer& fluid, const Command& command);
+  /// Once, when the first terms have been answered.
+  void open_lanes(std::uint32_t count);
+  /// This rank's particles: on rank 0 those of DEM's rank 0, and of each lane.
+  std::vector<wire::Rows> rows_of_lanes(const Command& command);
+  /// This rank's particles: its share of all that have come to rank 0.
+  std::vector<wire::Rows> dealt_rows(const Command& command);
+  /// Room for `count` samples behind a head.
+  static Channel::Message answer(const Command& command, std::size_t count, int signal);
+  void refuse(const std::string& sentence) noexcept;
 
   MPI_Comm ranks_;
-  std::unique_ptr<Channel> channel_;        ///< of rank 0
-  Channel::Message message_;                ///< of rank 0: the present one
-  std::vector<std::int32_t> cells_of_rank_; ///< on rank 0
+  Address address_;
+  Patience patience_;
+  std::unique_ptr<Channel> channel_; ///< of rank 0
+  Lanes lanes_;
+  bool by_lanes_ = false;
+  std::uint32_t lanes_asked_ = 0;
+  std::int64_t meetings_ = 0;
+  Channel::Message message_; ///< of rank 0: the present one
+  std::vector<std::int32_t> cells_of_rank_;
   bool agreed_ = false;
   unsigned offered_ = 0; ///< quantities that the fluid's terms offered
   bool extents_ = false, overlap_ = false;

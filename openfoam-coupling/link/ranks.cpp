@@ -15,16 +15,23 @@ using Nap = std::chrono::microseconds;
 constexpr Nap kShortestNap(20);
 constexpr Nap kLongestNap(500);
 
-int rank_of(MPI_Comm ranks) {
-  int rank = 0;
-  MPI_Comm_rank(ranks, &rank);
-  return rank;
+/// Tag of the empty message by which a rank ends the waits of the others.
+constexpr int kAlarm = 20561;
+
+/// This rank has waited in vain because another one has failed.
+struct OthersFailed {};
+
+void look_for_alarm(MPI_Comm ranks) {
+  int there = 0;
+  MPI_Iprobe(MPI_ANY_SOURCE, kAlarm, ranks, &there, MPI_STATUS_IGNORE);
+  if (there)
+    throw OthersFailed();
 }
 
-int size_of(MPI_Comm ranks) {
-  int size = 1;
-  MPI_Comm_size(ranks, &size);
-  return size;
+void raise_alarm(MPI_Comm ranks) {
+  for (int rank = 0; rank < size_of(ranks); ++rank)
+    if (rank != rank_of(ranks))
+      MPI_Send(nullptr, 0, MPI_BYTE, rank, kAlarm, ranks);
 }
 
 /// Rows as one MPI type, so that calls count rows and not bytes.
@@ -43,6 +50,18 @@ class RowType {
 
 } // namespace
 
+int rank_of(MPI_Comm ranks) {
+  int rank = 0;
+  MPI_Comm_rank(ranks, &rank);
+  return rank;
+}
+
+int size_of(MPI_Comm ranks) {
+  int size = 1;
+  MPI_Comm_size(ranks, &size);
+  return size;
+}
+
 void wait_asleep(MPI_Request& request) {
   Nap nap = kShortestNap;
   for (;;) {
@@ -53,6 +72,44 @@ void wait_asleep(MPI_Request& request) {
     std::this_thread::sleep_for(nap);
     nap = std::min(2 * nap, kLongestNap);
   }
+}
+
+std::vector<long long> on_all(MPI_Comm ranks, const std::function<long long(const Look&)>& work) {
+  struct Result {
+    long long failed = 0; ///< length of its sentence
+    long long value = 0;
+  };
+  Result mine;
+  std::string why;
+  try {
+    mine.value = work([ranks] { look_for_alarm(ranks); });
+  } catch (const OthersFailed&) {
+    // One of them has the sentence.
+  } catch (const std::exception& problem) {
+    why = problem.what();
+    mine.failed = static_cast<long long>(std::max<std::size_t>(why.size(), 1));
+    raise_alarm(ranks);
+  }
+  const int size = size_of(ranks), own = rank_of(ranks);
+  std::vector<Result> results(size);
+  MPI_Request request;
+  MPI_Iallgather(&mine, 2, MPI_LONG_LONG, results.data(), 2, MPI_LONG_LONG, ranks, &request);
+  wait_asleep(request);
+  int first = size;
+  std::vector<long long> values;
+  for (int rank = size - 1; rank >= 0; --rank) {
+    values.insert(values.begin(), results[rank].value);
+    if (results[rank].failed == 0)
+      continue;
+    first = rank;
+    if (rank != own)
+      MPI_Recv(nullptr, 0, MPI_BYTE, rank, kAlarm, ranks, MPI_STATUS_IGNORE);
+  }
+  if (first == size)
+    return values;
+  why.resize(results[first].failed);
+  MPI_Bcast(why.data(), static_cast<int>(why.size()), MPI_CHAR, first, ranks);
+  throw Refusal(why);
 }
 
 wire::Bytes on_root(MPI_Comm ranks, const std::function<wire::Bytes()>& work) {

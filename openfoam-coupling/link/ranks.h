@@ -15,6 +15,16 @@ namespace eccentra::link {
 /// Waits for a request with short naps instead of spinning: rank 0 may itself be waiting for minutes.
 void wait_asleep(MPI_Request& request);
 
+int rank_of(MPI_Comm ranks);
+int size_of(MPI_Comm ranks);
+
+/// Ends a wait when another rank of this side has failed.
+using Look = std::function<void()>;
+/// Runs `work` on every rank, which calls its Look several times a second while it waits for the other side. Returns
+/// what it returned on each rank. What it throws on one becomes the same Refusal on every rank: that of the lowest of
+/// those that failed by themselves. Collective.
+std::vector<long long> on_all(MPI_Comm ranks, const std::function<long long(const Look&)>& work);
+
 /// Runs `work` on rank 0, and broadcasts what it returns; a Refusal there becomes the same Refusal on every rank.
 /// Collective.
 wire::Bytes on_root(MPI_Comm ranks, const std::function<wire::Bytes()>& work);

@@ -10,7 +10,7 @@
 namespace eccentra::link {
 
 /// Raised whenever the layout or the meaning of anything that crosses the link changes.
-constexpr std::uint32_t kProtocolVersion = 4;
+constexpr std::uint32_t kProtocolVersion = 5;
 
 /// A box aligned with the axes [m] and the directions in which it repeats.
 struct Extents {
@@ -47,6 +47,7 @@ struct DemTerms {
   FlowCurve rheology;            ///< that the closures were told
   double gravity[3] = {0, 0, 0}; ///< that acts on the particles [m/s2]
   CheckpointMark resumes;        ///< the checkpoint that this run goes on from, if any
+  std::uint32_t lanes = 0;       ///< asked for by the socket link: one for each rank but the first (link/lanes.h)
 };
 
 /// The fluid side's statement.

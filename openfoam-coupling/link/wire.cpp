@@ -80,6 +80,8 @@ constexpr std::size_t kDemTermsBytes = bytes_of<DemTerms>(dem_terms_fields);
 constexpr std::size_t kFluidTermsBytes = bytes_of<FluidTerms>(fluid_terms_fields);
 constexpr std::size_t kMarkBytes = bytes_of<CheckpointMark>(mark_fields);
 static_assert(kMeetingBytes == sizeof(std::uint64_t) + sizeof(std::uint32_t) + bytes_of<Meeting>(meeting_fields));
+static_assert(kRowsBytes ==
+              sizeof(std::uint64_t) + sizeof(std::uint32_t) + sizeof(RowsMark::lane) + sizeof(RowsMark::meeting));
 /// Largest signal number of any system.
 constexpr std::uint32_t kMostSignal = 64;
 
@@ -111,6 +113,33 @@ std::size_t checked_count(Reader& in) {
   if (count > kMostParticles)
     broken("speaks of more particles than the " + std::to_string(kMostParticles) + " that the link carries");
   return count;
+}
+
+/// The rows of particles that are left in the message.
+Rows particle_rows(const Reader& in, std::size_t count, bool extents) {
+  const std::size_t row_bytes = particle_row_bytes(extents);
+  if (in.left() != count * row_bytes)
+    broken("does not hold the particles that it states");
+  Rows rows;
+  rows.count = count;
+  rows.data = in.here();
+  for (std::size_t i = 0; i < rows.count; ++i) {
+    const std::byte* row = rows.data + i * row_bytes;
+    check_finite(row, (row_bytes - sizeof(Ticket)) / sizeof(double), i, "particle row");
+    double volume;
+    std::memcpy(&volume, row + kVolumeAt * sizeof volume, sizeof volume);
+    if (!(volume > 0))
+      broken("holds a particle without volume");
+  }
+  return rows;
+}
+
+/// The word in front of rows that says whether they have extents.
+void check_extents(Reader& in, bool extents) {
+  bool with_extents = false;
+  in.yes_or_no(with_extents);
+  if (with_extents != extents)
+    broken("has rows of another length than the terms said");
 }
 
 } // namespace
@@ -145,6 +174,8 @@ DemTerms decode_dem_terms(View message) {
   if (terms.particles < 0 || std::uint64_t(terms.particles) > kMostParticles)
     throw Refusal("the DEM side has " + std::to_string(terms.particles) +
                   " particles but link socket carries at most " + std::to_string(kMostParticles) + ": use link solver");
+  if (terms.lanes > kMostLanes)
+    broken("asks for more lanes than there can be");
   return terms;
 }
 
@@ -219,6 +250,33 @@ std::string decode_checkpointed(View message) {
   return decode_text(message, Kind::checkpointed);
 }
 
+Bytes encode_no_lanes(const std::string& why) {
+  return encode_text(Kind::no_lanes, why);
+}
+
+std::string decode_no_lanes(View message) {
+  return decode_text(message, Kind::no_lanes);
+}
+
+Bytes encode_lanes(const std::vector<std::uint32_t>& numbers) {
+  Bytes message = with_header(Kind::lanes, sizeof(std::uint32_t) * numbers.size());
+  Writer(message.data() + kHeaderBytes).raw(numbers.data(), sizeof(std::uint32_t) * numbers.size());
+  return message;
+}
+
+std::vector<std::uint32_t> decode_lanes(View message, std::size_t asked) {
+  Reader in = body_of(message, Kind::lanes);
+  if (in.left() != sizeof(std::uint32_t) * asked)
+    broken("names another number of lanes than was asked for");
+  std::vector<std::uint32_t> numbers(asked);
+  for (std::uint32_t& number : numbers) {
+    in.plain(number);
+    if (number < 1 || number > kMostLanes)
+      broken("names a lane that cannot exist");
+  }
+  return numbers;
+}
+
 Bytes encode_bare(Kind kind) {
   return with_header(kind, 0);
 }
@@ -245,42 +303,49 @@ void write_meeting_head(std::byte* message, const Meeting& meeting, std::size_t 
 
 Rows decode_meeting(View message, bool extents, Meeting& meeting) {
   Reader in = body_of(message, Kind::meeting);
-  Rows rows;
-  rows.count = checked_count(in);
-  bool with_extents = false;
-  in.yes_or_no(with_extents);
-  if (with_extents != extents)
-    broken("has rows of another length than the terms said");
+  const std::size_t count = checked_count(in);
+  check_extents(in, extents);
   meeting_fields(in, meeting);
   const DemTotals& totals = meeting.totals;
-  if (meeting.elapsed < 0 || totals.particles < 0 || std::uint64_t(totals.particles) != rows.count)
+  if (meeting.elapsed < 0 || totals.particles < 0 || std::uint64_t(totals.particles) > kMostParticles ||
+      std::uint64_t(totals.particles) < count)
     broken("contradicts itself about time or particles");
   if (meeting.load.ranks < 1)
     broken("comes from no rank");
-  const std::size_t row_bytes = particle_row_bytes(extents);
-  if (in.left() != rows.count * row_bytes)
-    broken("does not hold the particles that it states");
-  rows.data = in.here();
-  for (std::size_t i = 0; i < rows.count; ++i) {
-    const std::byte* row = rows.data + i * row_bytes;
-    check_finite(row, (row_bytes - sizeof(Ticket)) / sizeof(double), i, "particle row");
-    double volume;
-    std::memcpy(&volume, row + kVolumeAt * sizeof volume, sizeof volume);
-    if (!(volume > 0))
-      broken("holds a particle without volume");
-  }
-  return rows;
+  return particle_rows(in, count, extents);
 }
 
-void write_samples_head(std::byte* message, std::size_t count, unsigned quantities, int stop_signal) {
+void write_rows_head(std::byte* message, const RowsMark& mark, std::size_t count, bool extents) {
+  write_header(message, Kind::rows, kRowsBytes + count * particle_row_bytes(extents));
+  Writer out(message + kHeaderBytes);
+  out.plain(std::uint64_t(count));
+  out.yes_or_no(extents);
+  out.plain(mark.lane);
+  out.plain(mark.meeting);
+}
+
+Rows decode_rows(View message, bool extents, const RowsMark& mark) {
+  Reader in = body_of(message, Kind::rows);
+  const std::size_t count = checked_count(in);
+  check_extents(in, extents);
+  if (in.take<std::uint32_t>() != mark.lane)
+    broken("comes from another rank than its lane");
+  if (in.take<std::int64_t>() != mark.meeting)
+    broken("belongs to another meeting");
+  return particle_rows(in, count, extents);
+}
+
+void write_samples_head(std::byte* message, std::int64_t meeting, std::size_t count, unsigned quantities,
+                        int stop_signal) {
   write_header(message, Kind::samples, kSamplesBytes + count * samples_row_bytes(quantities));
   Writer out(message + kHeaderBytes);
   out.plain(std::uint64_t(count));
   out.quantities(quantities);
   out.plain(std::uint32_t(stop_signal));
+  out.plain(meeting);
 }
 
-Rows decode_samples(View message, std::size_t count, unsigned quantities) {
+Rows decode_samples(View message, std::int64_t meeting, std::size_t count, unsigned quantities) {
   Reader in = body_of(message, Kind::samples);
   Rows rows;
   rows.count = checked_count(in);
@@ -290,7 +355,7 @@ Rows decode_samples(View message, std::size_t count, unsigned quantities) {
   if (signal > kMostSignal)
     broken("names a signal that does not exist");
   rows.stop_signal = static_cast<int>(signal);
-  if (rows.count != count || sent != quantities)
+  if (in.take<std::int64_t>() != meeting || rows.count != count || sent != quantities)
     broken("answers another question than was asked");
   const std::size_t row_bytes = samples_row_bytes(quantities);
   if (in.left() != rows.count * row_bytes)
@@ -327,8 +392,10 @@ void pack_particles(const ParticleArrays& particles, bool extents, std::byte* ro
   }
 }
 
-void Guests::load(Rows rows, bool extents, unsigned quantities) {
-  count_ = rows.count;
+void Guests::load(const std::vector<Rows>& parts, bool extents, unsigned quantities) {
+  count_ = 0;
+  for (const Rows& rows : parts)
+    count_ += rows.count;
   quantities_ = quantities;
   extents_ = extents;
   position_.resize(3 * count_);
@@ -337,26 +404,29 @@ void Guests::load(Rows rows, bool extents, unsigned quantities) {
   drag_.resize(count_);
   extent_.resize(extents ? kExtentDoubles * count_ + 1 : 0);
   ticket_.resize(count_);
-  const std::size_t row_bytes = particle_row_bytes(extents);
-  for (std::size_t i = 0; i < count_; ++i) {
-    const std::byte* from = rows.data + i * row_bytes;
-    const auto take = [&from](void* to, std::size_t bytes) {
-      std::memcpy(to, from, bytes);
-      from += bytes;
-    };
-    take(&position_[3 * i], 3 * sizeof(double));
-    take(&volume_[i], sizeof(double));
-    take(&impulse_[3 * i], 3 * sizeof(double));
-    take(&drag_[i], sizeof(double));
-    if (extents)
-      take(&extent_[kExtentDoubles * i], kExtentDoubles * sizeof(double));
-    take(&ticket_[i], sizeof(Ticket));
-    if (ticket_[i].rank < 0)
-      ticket_[i] = Ticket{};
-  }
+  std::size_t i = 0;
+  for (const Rows& rows : parts)
+    for (std::size_t k = 0; k < rows.count; ++k)
+      take(rows.data + k * particle_row_bytes(extents), i++);
   int bit = 0;
   for (std::vector<double>* values : {&velocity_, &fraction_, &pressure_gradient_, &stress_divergence_, &vorticity_})
     size_for(*values, count_, quantities, bit++);
+}
+
+void Guests::take(const std::byte* row, std::size_t i) {
+  const auto next = [&row](void* to, std::size_t bytes) {
+    std::memcpy(to, row, bytes);
+    row += bytes;
+  };
+  next(&position_[3 * i], 3 * sizeof(double));
+  next(&volume_[i], sizeof(double));
+  next(&impulse_[3 * i], 3 * sizeof(double));
+  next(&drag_[i], sizeof(double));
+  if (extents_)
+    next(&extent_[kExtentDoubles * i], kExtentDoubles * sizeof(double));
+  next(&ticket_[i], sizeof(Ticket));
+  if (ticket_[i].rank < 0)
+    ticket_[i] = Ticket{};
 }
 
 ParticleArrays Guests::particles() {
@@ -385,11 +455,11 @@ fluid::FluidSamples Guests::samples() {
   return samples;
 }
 
-void Guests::pack_samples(std::byte* rows) {
+void Guests::pack_samples(std::size_t first, std::size_t count, std::byte* rows) const {
   Writer out(rows);
   const std::vector<double>* const arrays[kQuantities] = {&velocity_, &fraction_, &pressure_gradient_,
                                                           &stress_divergence_, &vorticity_};
-  for (std::size_t i = 0; i < count_; ++i) {
+  for (std::size_t i = first; i < first + count; ++i) {
     for (int bit = 0; bit < kQuantities; ++bit)
       if (quantities_ & (1u << bit))
         out.raw(arrays[bit]->data() + i * kDoublesOf[bit], kDoublesOf[bit] * sizeof(double));

@@ -23,16 +23,23 @@ enum class Kind : std::uint32_t {
   farewell = 7,     ///< DEM to fluid: the script has ended as intended
   checkpoint = 8,   ///< DEM to fluid: write the state of the last meeting under this mark
   checkpointed = 9, ///< fluid to DEM: it is on the disk, and where
-  advance = 10      ///< DEM to fluid, with overlap: DEM begins an interval, and so shall the fluid
+  advance = 10,     ///< DEM to fluid, with overlap: DEM begins an interval, and so shall the fluid
+  lanes = 11,       ///< fluid to DEM, after the terms: where the lanes are that those asked for
+  no_lanes = 12,    ///< fluid to DEM instead: why there are none, in one sentence; all rows travel over rank 0
+  rows = 13         ///< DEM to fluid, on a lane: the particles of one rank, whose meeting comes from rank 0
 };
-constexpr Kind kLastKind = Kind::advance;
+constexpr Kind kLastKind = Kind::rows;
 
 /// Bytes before the body of every message.
 constexpr std::size_t kHeaderBytes = 32;
 /// Bytes between the header and the rows of a meeting.
-constexpr std::size_t kMeetingBytes = 232;
+constexpr std::size_t kMeetingBytes = 240;
 /// Bytes between the header and the rows of the samples.
-constexpr std::size_t kSamplesBytes = 16;
+constexpr std::size_t kSamplesBytes = 24;
+/// Bytes between the header and the rows of a rank.
+constexpr std::size_t kRowsBytes = 24;
+/// Numbers of lanes are those of ports, or of ranks.
+constexpr std::uint32_t kMostLanes = 65535;
 /// No message speaks of more particles; rows stay below what MPI counts in one call.
 constexpr std::uint64_t kMostParticles = 10'000'000;
 /// Longest sentence of a refusal.
@@ -62,11 +69,21 @@ Bytes encode_refusal(const std::string& sentence);
 Bytes encode(const CheckpointMark& mark);
 Bytes encode_checkpointed(const std::string& place);
 Bytes encode_bare(Kind kind); ///< run_ended, farewell or advance
+Bytes encode_lanes(const std::vector<std::uint32_t>& numbers);
+Bytes encode_no_lanes(const std::string& why);
 /// `message` has room for kHeaderBytes + kMeetingBytes; `count` rows follow them.
 void write_meeting_head(std::byte* message, const Meeting& meeting, std::size_t count, bool extents);
+/// Says whose rows of which meeting these are.
+struct RowsMark {
+  std::uint32_t lane = 0; ///< rank of DEM
+  std::int64_t meeting = 0;
+};
+/// `message` has room for kHeaderBytes + kRowsBytes; `count` rows follow them.
+void write_rows_head(std::byte* message, const RowsMark& mark, std::size_t count, bool extents);
 /// `message` has room for kHeaderBytes + kSamplesBytes; `count` rows follow them. `stop_signal`: the one that asks the
 /// fluid side to stop, or 0.
-void write_samples_head(std::byte* message, std::size_t count, unsigned quantities, int stop_signal = 0);
+void write_samples_head(std::byte* message, std::int64_t meeting, std::size_t count, unsigned quantities,
+                        int stop_signal = 0);
 
 /// Rows of a message, still in it.
 struct Rows {
@@ -86,10 +103,15 @@ FluidTerms decode_fluid_terms(View message);
 std::string decode_refusal(View message);
 CheckpointMark decode_checkpoint(View message);
 std::string decode_checkpointed(View message);
-/// `extents` as the DEM side's terms said. Volumes are positive.
+/// `asked`: the number of lanes that the terms asked for.
+std::vector<std::uint32_t> decode_lanes(View message, std::size_t asked);
+std::string decode_no_lanes(View message);
+/// `extents` as the DEM side's terms said. Volumes are positive. With lanes the rows are some of the particles.
 Rows decode_meeting(View message, bool extents, Meeting& meeting);
-/// `count` and `quantities` as the meeting asked for.
-Rows decode_samples(View message, std::size_t count, unsigned quantities);
+/// `mark` as it must be.
+Rows decode_rows(View message, bool extents, const RowsMark& mark);
+/// `meeting`, `count` and `quantities` as the meeting asked for.
+Rows decode_samples(View message, std::int64_t meeting, std::size_t count, unsigned quantities);
 /// Throws Refusal unless each ticket is blank or names a rank that is there and one of its cells.
 void check_tickets(Rows rows, bool extents, const std::vector<std::int32_t>& cells_of_rank);
 
@@ -99,14 +121,16 @@ void pack_particles(const ParticleArrays& particles, bool extents, std::byte* ro
 /// Particles unpacked from rows, with room for their samples. Keeps its memory from one meeting to the next.
 class Guests {
  public:
-  void load(Rows rows, bool extents, unsigned quantities);
+  /// The rows of all `parts`, one after the other.
+  void load(const std::vector<Rows>& parts, bool extents, unsigned quantities);
   ParticleArrays particles();
   /// Arrays of the quantities asked for, null for the others, also where there is no particle.
   fluid::FluidSamples samples();
-  /// Writes samples and tickets to `rows`.
-  void pack_samples(std::byte* rows);
+  /// Writes samples and tickets of `count` particles from `first` on to `rows`.
+  void pack_samples(std::size_t first, std::size_t count, std::byte* rows) const;
 
  private:
+  void take(const std::byte* row, std::size_t i);
   std::size_t count_ = 0;
   unsigned quantities_ = 0;
   bool extents_ = false;

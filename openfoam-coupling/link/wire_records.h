@@ -47,6 +47,8 @@ template <class Way, class Record> constexpr void dem_terms_fields(Way& way, Rec
   flow_curve_fields(way, terms.rheology);
   numbers(way, terms.gravity);
   mark_fields(way, terms.resumes);
+  way.plain(terms.lanes);
+  way.unused();
 }
 
 template <class Way, class Record> constexpr void fluid_terms_fields(Way& way, Record& terms) {
@@ -91,6 +93,7 @@ template <class Way, class Record> constexpr void meeting_fields(Way& way, Recor
   way.number(meeting.pack_seconds);
   way.plain(meeting.steps_done);
   way.plain(meeting.steps_total);
+  way.plain(meeting.number);
   totals_fields(way, meeting.totals);
   load_fields(way, meeting.load);
 }

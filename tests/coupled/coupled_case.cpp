@@ -149,6 +149,9 @@ Outcome run(const BoxCase& box, const std::string& name, int ranks) {
     throw std::runtime_error("blockMesh failed: see " + (folder / "log.mesh").string());
   std::string launch = "timeout 200 '" + std::string(std::getenv("ECCENTRA_BIN")) + "/annulusFoam'";
   if (ranks > 1) {
+    const std::string parts = std::to_string(ranks);
+    write(folder / "system/decomposeParDict", "dictionary",
+          "numberOfSubdomains " + parts + "; method simple; coeffs { n (1 1 " + parts + "); }");
     if (shell(enter + "decomposePar > log.decompose 2>&1") != 0)
       throw std::runtime_error("decomposePar failed: see " + (folder / "log.decompose").string());
     launch = "timeout 200 mpirun --oversubscribe --bind-to none -np " + std::to_string(ranks) + " '" +

@@ -71,13 +71,14 @@ class BackgroundJob {
   /// The exit code so far, as wait() has it.
   int code() const { return code_; }
 
-  /// Its first child process, or -1.
-  int child() const {
+  /// One of its child processes, or -1.
+  int child(int number = 0) const {
     const std::string id = std::to_string(process_);
     std::ifstream in("/proc/" + id + "/task/" + id + "/children");
-    int first = -1;
-    in >> first;
-    return first;
+    for (int process = -1; in >> process; --number)
+      if (number == 0)
+        return process;
+    return -1;
   }
 
   std::string text() const {

@@ -31,6 +31,7 @@ constexpr int kSteps = kMeetings * kStepsPerMeeting;
 /// A coupled run that is caught in its middle. The DEM side runs in the case's folder, too.
 struct Jobs {
   std::string folder;
+  int fluid_ranks = 1;
   std::unique_ptr<BackgroundJob> particles, fluid;
 
   explicit Jobs(const std::string& name, int steps = 100 * kSteps) {
@@ -42,8 +43,17 @@ struct Jobs {
     replace_in(folder + "/constant/couplingProperties", "wait 0.01;", "");
     fs::remove_all(folder + "/postProcessing");
   }
+  /// The fluid side then has two ranks.
+  void decompose() {
+    BackgroundJob divide(folder, {"decomposePar", "-force"}, "log.decompose");
+    ASSERT_EQ(divide.wait(kStart), 0) << divide.text();
+    fluid_ranks = 2;
+  }
   void start(const std::vector<std::string>& more = {}, int ranks = 1) {
-    fluid = std::make_unique<BackgroundJob>(folder, command("annulusFoam", more, 1), "log.fluid");
+    std::vector<std::string> fluid_words = more;
+    if (fluid_ranks > 1)
+      fluid_words.push_back("-parallel");
+    fluid = std::make_unique<BackgroundJob>(folder, command("annulusFoam", fluid_words, fluid_ranks), "log.fluid");
     std::vector<std::string> words = {"-in", "in.dem", "-log", "none"};
     words.insert(words.end(), more.begin(), more.end());
     // Another number of ranks on one side only.
@@ -182,6 +192,47 @@ TEST(Faults, LostRankOfTheParticles) {
   ASSERT_GT(rank, 0);
   ::kill(rank, SIGKILL);
   jobs.expect_end("the DEM side at", "signal 9");
+}
+
+// Ranks that wait on connections of their own end with the others, also where those wait for somebody else.
+TEST(Faults, LostRankOfManyOnBothSides) {
+  for (const bool of_fluid : {false, true}) {
+    Jobs jobs(of_fluid ? "rank_fluid" : "rank_dem");
+    jobs.decompose();
+    jobs.start({}, 3);
+    jobs.wait_for_middle();
+    const int rank = (of_fluid ? jobs.fluid : jobs.particles)->child(1);
+    ASSERT_GT(rank, 0);
+    ::kill(rank, SIGKILL);
+    jobs.expect_end(of_fluid ? "signal 9" : "the DEM side", of_fluid ? "the fluid side" : "signal 9");
+  }
+}
+
+TEST(Faults, StalledRankOfTheFluid) {
+  Jobs jobs("stalled_rank");
+  jobs.decompose();
+  jobs.start({}, 3);
+  jobs.wait_for_middle();
+  const int rank = jobs.fluid->child(1);
+  ASSERT_GT(rank, 0);
+  ::kill(rank, SIGSTOP);
+  // The rank of DEM whose samples that one owes notices.
+  EXPECT_TRUE(jobs.particles->says("has gone", kNotice)) << jobs.particles->text();
+  EXPECT_GT(jobs.particles->wait(kNotice), 0);
+  ::kill(rank, SIGCONT);
+  EXPECT_GT(jobs.fluid->wait(kNotice), 0) << jobs.fluid->text();
+}
+
+TEST(Faults, SignalToManyRanksEndsAllAndTheyGoOn) {
+  Jobs jobs("stop_ranks");
+  jobs.decompose();
+  jobs.start({}, 3);
+  jobs.wait_for_middle();
+  ::kill(jobs.particles->child(1), SIGTERM);
+  const std::string sentence = "SIGTERM asked to stop: checkpoint ";
+  jobs.expect_end(sentence, sentence);
+  jobs.start({"-resume"}, 2);
+  EXPECT_TRUE(jobs.fluid->says(" %  left", kStart)) << jobs.fluid->text() << jobs.particles->text();
 }
 
 // Another order of sums: the difference of round-off that collisions have made grow over 320 steps.

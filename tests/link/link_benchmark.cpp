@@ -22,6 +22,7 @@
 namespace {
 
 using namespace eccentra;
+using Rows = link::SocketPeer::Rows;
 
 constexpr int kMeetings = 200;
 constexpr std::size_t kParticles = 30000;
@@ -118,7 +119,7 @@ std::optional<Words> read(int argc, char** argv) {
 }
 
 /// One side's work; on rank 0 of DEM the sorted times.
-std::vector<double> meet(bool dem, MPI_Comm side, const char* path, const Words& words, bool extents) {
+std::vector<double> meet(bool dem, MPI_Comm side, const char* path, const Words& words, bool extents, Rows way) {
   if (!dem) {
     PromptFluid fluid;
     link::FluidServer(side, std::string(path), {}, 1).serve(fluid);
@@ -127,8 +128,39 @@ std::vector<double> meet(bool dem, MPI_Comm side, const char* path, const Words&
   int rank = 0;
   MPI_Comm_rank(side, &rank);
   const long begin = words.particles * rank / words.dem_ranks, end = words.particles * (rank + 1) / words.dem_ranks;
-  link::SocketPeer fluid(side, std::string(path), {});
+  link::SocketPeer fluid(side, std::string(path), {}, way);
   return times_of_meetings(fluid, end - begin, words.particles, extents);
+}
+
+/// Prints what a meeting takes. Returns 1 on rank 0 if an answer was wrong.
+int measure(bool dem, MPI_Comm side, const Words& words, bool extents, Rows way) {
+  int rank = 0, size = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  const bool lanes = words.dem_ranks > 1 && way == Rows::on_lanes;
+  char path[64] = {};
+  std::snprintf(path, sizeof path, "/tmp/eccentra-link-benchmark-%d-%d%d", int(getpid()), int(extents), int(lanes));
+  MPI_Bcast(path, sizeof path, MPI_CHAR, 0, MPI_COMM_WORLD);
+  const double begun = cpu_seconds();
+  const std::vector<double> seconds = meet(dem, side, path, words, extents, way);
+  const double mine = cpu_seconds() - begun;
+  double all = 0;
+  MPI_Reduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, 0, MPI_COMM_WORLD);
+  if (rank != 0)
+    return 0;
+  if (seconds.empty())
+    return 1;
+  const double through_root = double(words.particles) / (lanes ? double(words.dem_ranks) : 1.0);
+  const std::size_t there = link::wire::particle_row_bytes(extents), back = link::wire::samples_row_bytes(kAsked);
+  std::printf(
+      "%ld particles%s, %ld + %ld ranks, %s: median %.3f ms, fastest %.3f ms, slowest %.3f ms, %.0f ns a "
+      "particle; processor time of all ranks %.3f ms; %zu + %zu bytes a particle, %.1f kB a meeting from and to "
+      "rank 0 of DEM\n",
+      words.particles, extents ? " with extents" : "", words.dem_ranks, size - words.dem_ranks,
+      lanes ? "on lanes" : "over rank 0", 1e3 * seconds[seconds.size() / 2], 1e3 * seconds.front(),
+      1e3 * seconds.back(), 1e9 * seconds[seconds.size() / 2] / double(words.particles), 1e3 * all / kMeetings, there,
+      back, 1e-3 * through_root * double(there + back));
+  return 0;
 }
 
 } // namespace
@@ -147,31 +179,10 @@ int main(int argc, char** argv) {
   const bool dem = rank < words->dem_ranks;
   MPI_Comm side = MPI_COMM_NULL;
   MPI_Comm_split(MPI_COMM_WORLD, dem, rank, &side);
-  for (const bool extents : {false, true}) {
-    char path[64] = {};
-    std::snprintf(path, sizeof path, "/tmp/eccentra-link-benchmark-%d-%d", int(getpid()), int(extents));
-    MPI_Bcast(path, sizeof path, MPI_CHAR, 0, MPI_COMM_WORLD);
-    const double begun = cpu_seconds();
-    const std::vector<double> seconds = meet(dem, side, path, *words, extents);
-    const double mine = cpu_seconds() - begun;
-    double all = 0;
-    MPI_Reduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, 0, MPI_COMM_WORLD);
-    if (rank != 0)
-      continue;
-    failed += seconds.empty();
-    if (seconds.empty())
-      continue;
-    const double local = double(words->particles) / double(words->dem_ranks);
-    const std::size_t there = link::wire::particle_row_bytes(extents), back = link::wire::samples_row_bytes(kAsked);
-    std::printf(
-        "%ld particles%s, %ld + %ld ranks: median %.3f ms, fastest %.3f ms, slowest %.3f ms, %.0f ns a particle; "
-        "processor time of all ranks %.3f ms; %zu + %zu bytes a particle, %.1f kB a meeting from and to a rank of "
-        "DEM\n",
-        words->particles, extents ? " with extents" : "", words->dem_ranks, size - words->dem_ranks,
-        1e3 * seconds[seconds.size() / 2], 1e3 * seconds.front(), 1e3 * seconds.back(),
-        1e9 * seconds[seconds.size() / 2] / double(words->particles), 1e3 * all / kMeetings, there, back,
-        1e-3 * local * double(there + back));
-  }
+  for (const bool extents : {false, true})
+    for (const Rows way : {Rows::on_lanes, Rows::over_root})
+      if (words->dem_ranks > 1 || way == Rows::on_lanes)
+        failed += measure(dem, side, *words, extents, way);
   MPI_Comm_free(&side);
   MPI_Finalize();
   return failed;

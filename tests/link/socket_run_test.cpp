@@ -12,6 +12,7 @@
 #include <fstream>
 #include <memory>
 #include <sstream>
+#include <utility>
 
 namespace {
 
@@ -27,9 +28,11 @@ BoxCase scene(const std::string& link, int steps) {
   BoxCase box;
   std::ostringstream script;
   script << script_head(box, 5e-5);
-  for (int i = 0; i < 27; ++i)
-    script << "create_atoms 1 single " << 0.005 + 0.02 * (i % 3) << ' ' << 0.006 + 0.02 * (i / 3 % 3) << ' '
-           << 0.007 + 0.02 * (i / 9) << " units box\n";
+  for (int i = 0; i < 27; ++i) {
+    const int row = i / 3 % 3, layer = i / 9;
+    script << "create_atoms 1 single " << 0.005 + 0.02 * (i % 3) << ' ' << 0.006 + 0.02 * row << ' '
+           << 0.007 + 0.02 * layer << " units box\n";
+  }
   script << "set group all diameter 6.35e-3 density 2619\n";
   for (int i = 0; i < 27; ++i)
     script << "set atom " << i + 1 << " vx " << 0.3 + 0.2 * std::sin(i) << " vy " << 0.1 * std::cos(2 * i) << " vz "
@@ -70,12 +73,16 @@ BoxCase socket_scene(const std::string& name, int steps) {
   return box;
 }
 
-void expect_same(const BoxCase& box, const Outcome& reference, const std::string& name, int dem_ranks,
-                 int fluid_ranks) {
+/// `said`: what the DEM side says about how its particles travel; empty: nothing.
+void expect_same(const BoxCase& box, const Outcome& reference, const std::string& name, int dem_ranks, int fluid_ranks,
+                 const std::string& said = "") {
   const auto particles = dem(name, box.script, dem_ranks);
   const Outcome outcome = run(box, name, fluid_ranks);
   ASSERT_EQ(outcome.status, 0) << outcome.text << particles->text();
   EXPECT_EQ(particles->wait(kStart), 0) << particles->text();
+  const bool over_root = particles->text().find("travel over rank 0: ") != std::string::npos;
+  EXPECT_EQ(over_root, !said.empty()) << particles->text();
+  EXPECT_NE(particles->text().find(said), std::string::npos) << particles->text();
   ASSERT_EQ(outcome.rows.size(), reference.rows.size());
   for (const char* column : {"com_x", "com_y", "com_z", "fastest_particle", "fastest_fluid", "least_fraction",
                              "momentum_x", "momentum_y", "momentum_z", "particles", "time"})
@@ -117,7 +124,33 @@ TEST(SocketRun, TwoJobsGiveTheResultOfOne) {
   const Outcome reference = run(scene("solver", 800), "one_job");
   ASSERT_EQ(reference.status, 0) << reference.text;
   expect_same(socket_scene("serial", 800), reference, "two_jobs", 1, 1);
-  expect_same(socket_scene("ranks", 800), reference, "two_jobs_of_ranks", 3, 2);
+  const std::pair<int, int> ranks[] = {{1, 2}, {2, 1}, {3, 2}, {2, 3}};
+  for (const auto& [dem_ranks, fluid_ranks] : ranks) {
+    const std::string name = "jobs_of_" + std::to_string(dem_ranks) + "_and_" + std::to_string(fluid_ranks);
+    expect_same(socket_scene(name, 800), reference, name, dem_ranks, fluid_ranks);
+  }
+}
+
+TEST(SocketRun, OverRankZeroTheResultIsTheSame) {
+  const Outcome reference = run(scene("solver", 400), "one_job_root");
+  BoxCase box = scene("socket " + address("root") + " wait 60 lanes no", 400);
+  box.coupling = "link socket; address \"" + address("root") + "\"; wait 60;";
+  expect_same(box, reference, "over_root", 3, 2, "the script says lanes no");
+  std::string longest = "long";
+  longest += std::string(sizeof "ipc://" - 1 + 107 - address(longest).size(), 'x');
+  expect_same(socket_scene(longest, 400), reference, "longest", 2, 2, "too long to be the beginning");
+}
+
+// Spheres in one half of the box only: a rank of DEM has none.
+TEST(SocketRun, RankWithoutParticles) {
+  const auto half = [](BoxCase box) {
+    box.script.replace(box.script.find("fix mud"), 0,
+                       "region top block INF INF INF INF 0.025 INF units box\ndelete_atoms region top\n");
+    return box;
+  };
+  const Outcome reference = run(half(scene("solver", 400)), "half");
+  ASSERT_EQ(reference.status, 0) << reference.text;
+  expect_same(half(socket_scene("half", 400)), reference, "half_of_ranks", 3, 2);
 }
 
 TEST(SocketRun, DisagreementIsSaidOnBothSides) {

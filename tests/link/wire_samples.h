@@ -13,6 +13,8 @@ namespace eccentra::test {
 
 constexpr unsigned kAsked = fluid::kVelocity | fluid::kFraction | fluid::kPressureGradient;
 constexpr std::size_t kRows = 3;
+constexpr std::int64_t kMeeting = 12;
+constexpr std::uint32_t kLane = 5;
 
 /// Particles with values that tell rows and columns apart.
 struct SomeParticles {
@@ -42,6 +44,7 @@ inline link::Meeting some_meeting() {
   meeting.dem_seconds = 0.5;
   meeting.steps_done = 40;
   meeting.steps_total = 80;
+  meeting.number = kMeeting;
   meeting.totals.particles = kRows;
   meeting.totals.volume_velocity[2] = 3.25;
   meeting.totals.fastest = 0.75;
@@ -65,7 +68,7 @@ inline link::wire::Bytes samples_message() {
   const Bytes meeting = meeting_message(true);
   link::Meeting unused;
   Guests guests;
-  guests.load(decode_meeting({meeting.data(), meeting.size()}, true, unused), true, kAsked);
+  guests.load({decode_meeting({meeting.data(), meeting.size()}, true, unused)}, true, kAsked);
   const fluid::FluidSamples samples = guests.samples();
   for (std::size_t i = 0; i < kRows; ++i) {
     for (int k = 0; k < 3; ++k) {
@@ -75,9 +78,38 @@ inline link::wire::Bytes samples_message() {
     samples.fraction[i] = 0.5 + 0.1 * i;
   }
   Bytes message(head + kRows * samples_row_bytes(kAsked));
-  write_samples_head(message.data(), kRows, kAsked);
-  guests.pack_samples(message.data() + head);
+  write_samples_head(message.data(), kMeeting, kRows, kAsked);
+  guests.pack_samples(0, kRows, message.data() + head);
   return message;
+}
+
+inline link::wire::Bytes rows_message(bool extents) {
+  using namespace link::wire;
+  constexpr std::size_t head = kHeaderBytes + kRowsBytes;
+  Bytes message(head + kRows * particle_row_bytes(extents));
+  write_rows_head(message.data(), {kLane, kMeeting}, kRows, extents);
+  SomeParticles particles;
+  pack_particles(particles.arrays(), extents, message.data() + head);
+  return message;
+}
+
+/// Reads rows with or without extents, whichever fits.
+template <class Decode> void use_rows(Decode&& decode) {
+  using namespace link::wire;
+  for (const bool extents : {false, true}) {
+    try {
+      const Rows rows = decode(extents);
+      check_tickets(rows, extents, {8, 20});
+      Guests guests;
+      guests.load({rows, rows}, extents, kAsked);
+      Bytes answer(rows.count * samples_row_bytes(kAsked));
+      guests.pack_samples(rows.count, rows.count, answer.data());
+      return;
+    } catch (const link::Refusal&) {
+      if (extents)
+        throw;
+    }
+  }
 }
 
 inline std::vector<link::wire::Bytes> valid_messages() {
@@ -94,6 +126,10 @@ inline std::vector<link::wire::Bytes> valid_messages() {
           meeting_message(false),
           meeting_message(true),
           samples_message(),
+          rows_message(false),
+          rows_message(true),
+          encode_lanes({1, 2, kMostLanes}),
+          encode_no_lanes("several hosts"),
           encode_bare(Kind::run_ended),
           encode_bare(Kind::farewell),
           encode_bare(Kind::advance),
@@ -126,27 +162,23 @@ inline bool accepted(const std::byte* data, std::size_t size) {
     case Kind::checkpointed:
       (void)decode_checkpointed(message);
       break;
-    case Kind::meeting: {
-      // Rows with and without extents: whichever fits.
-      for (const bool extents : {false, true}) {
-        try {
-          link::Meeting meeting;
-          const Rows rows = decode_meeting(message, extents, meeting);
-          check_tickets(rows, extents, {8, 20});
-          Guests guests;
-          guests.load(rows, extents, kAsked);
-          Bytes answer(rows.count * samples_row_bytes(kAsked));
-          guests.pack_samples(answer.data());
-          return true;
-        } catch (const link::Refusal&) {
-          if (extents)
-            throw;
-        }
-      }
+    case Kind::meeting:
+      use_rows([&](bool extents) {
+        link::Meeting meeting;
+        return decode_meeting(message, extents, meeting);
+      });
       break;
-    }
+    case Kind::rows:
+      use_rows([&](bool extents) { return decode_rows(message, extents, {kLane, kMeeting}); });
+      break;
+    case Kind::lanes:
+      (void)decode_lanes(message, 3);
+      break;
+    case Kind::no_lanes:
+      (void)decode_no_lanes(message);
+      break;
     case Kind::samples: {
-      const Rows rows = decode_samples(message, kRows, kAsked);
+      const Rows rows = decode_samples(message, kMeeting, kRows, kAsked);
       double velocity[kRows][3], fraction[kRows], gradient[kRows][3];
       link::Ticket tickets[kRows];
       fluid::FluidSamples samples;

@@ -56,12 +56,14 @@ TEST(Wire, TermsArriveAsSent) {
   dem.domain.high[0] = 0.25;
   dem.domain.periodic[2] = true;
   dem.resumes = {640, 0x8000000000000001};
+  dem.lanes = 7;
   const DemTerms got = wire::decode_dem_terms(view(wire::encode(dem)));
   EXPECT_EQ(got.time_step, dem.time_step);
   EXPECT_EQ(got.interval, 64);
   EXPECT_EQ(got.resumes.step, 640);
   EXPECT_EQ(got.resumes.id, 0x8000000000000001u);
   EXPECT_EQ(got.particles, 1212);
+  EXPECT_EQ(got.lanes, 7u);
   EXPECT_EQ(got.needed, kAsked);
   EXPECT_TRUE(got.extents);
   EXPECT_TRUE(got.overlap);
@@ -107,12 +109,13 @@ TEST(Wire, MeetingArrivesAsSent) {
     EXPECT_EQ(meeting.steps_total, 80);
     EXPECT_EQ(meeting.totals.volume_velocity[2], 3.25);
     EXPECT_EQ(meeting.totals.fastest, 0.75);
+    EXPECT_EQ(meeting.number, kMeeting);
     EXPECT_EQ(meeting.load.ranks, 4);
     EXPECT_EQ(meeting.load.most_particles, 2);
     EXPECT_EQ(meeting.load.mean_seconds, 0.25);
     EXPECT_EQ(meeting.load.most_seconds, 0.5);
     wire::Guests guests;
-    guests.load(rows, extents, kAsked);
+    guests.load({rows}, extents, kAsked);
     const ParticleArrays got = guests.particles();
     SomeParticles sent;
     ASSERT_EQ(got.count, kRows);
@@ -137,7 +140,7 @@ TEST(Wire, MeetingArrivesAsSent) {
 TEST(Wire, SamplesArriveAsSentAndOnlyWhatIsAskedForTravels) {
   const Bytes message = samples_message();
   EXPECT_EQ(message.size(), wire::kHeaderBytes + wire::kSamplesBytes + kRows * (7 * 8 + 8));
-  const wire::Rows rows = wire::decode_samples(view(message), kRows, kAsked);
+  const wire::Rows rows = wire::decode_samples(view(message), kMeeting, kRows, kAsked);
   double velocity[kRows][3], fraction[kRows];
   Ticket tickets[kRows];
   eccentra::fluid::FluidSamples samples;
@@ -153,7 +156,7 @@ TEST(Wire, SamplesArriveAsSentAndOnlyWhatIsAskedForTravels) {
 
 TEST(Wire, ArraysThatAreAskedForExistWithoutParticles) {
   wire::Guests guests;
-  guests.load({0, nullptr}, true, kAsked);
+  guests.load({}, true, kAsked);
   EXPECT_NE(guests.samples().velocity, nullptr);
   EXPECT_NE(guests.particles().extent, nullptr);
   EXPECT_EQ(guests.samples().vorticity, nullptr);
@@ -189,7 +192,7 @@ TEST(Wire, EveryTruncationIsRefused) {
       // And with a header that states the shorter length; a text may have any.
       const Bytes honest = with(cut, kLengthAt, std::uint64_t(size - wire::kHeaderBytes));
       const wire::Kind kind = wire::kind_of(view(message));
-      if (kind != wire::Kind::refusal && kind != wire::Kind::checkpointed) {
+      if (kind != wire::Kind::refusal && kind != wire::Kind::checkpointed && kind != wire::Kind::no_lanes) {
         EXPECT_FALSE(accepted(honest.data(), honest.size()));
       }
     }
@@ -201,10 +204,37 @@ TEST(Wire, CheckpointsAndSignalsArriveAsSent) {
   EXPECT_EQ(wire::decode_checkpointed(view(wire::encode_checkpointed("/a\nb"))), "/a?b");
   expect_refusal([&] { wire::decode_checkpoint(view(wire::encode(CheckpointMark{-1, 7}))); }, "before the beginning");
   Bytes samples = samples_message();
-  wire::write_samples_head(samples.data(), kRows, kAsked, 15);
-  EXPECT_EQ(wire::decode_samples(view(samples), kRows, kAsked).stop_signal, 15);
-  wire::write_samples_head(samples.data(), kRows, kAsked, 1000);
-  expect_refusal([&] { wire::decode_samples(view(samples), kRows, kAsked); }, "signal that does not exist");
+  wire::write_samples_head(samples.data(), kMeeting, kRows, kAsked, 15);
+  EXPECT_EQ(wire::decode_samples(view(samples), kMeeting, kRows, kAsked).stop_signal, 15);
+  wire::write_samples_head(samples.data(), kMeeting, kRows, kAsked, 1000);
+  expect_refusal([&] { wire::decode_samples(view(samples), kMeeting, kRows, kAsked); }, "signal that does not exist");
+}
+
+TEST(Wire, LanesArriveAsSentAndOthersAreRefused) {
+  const std::vector<std::uint32_t> numbers = {3, wire::kMostLanes};
+  const Bytes message = wire::encode_lanes(numbers);
+  EXPECT_EQ(wire::decode_lanes(view(message), 2), numbers);
+  expect_refusal([&] { wire::decode_lanes(view(message), 3); }, "another number of lanes");
+  expect_refusal([&] { wire::decode_lanes(view(wire::encode_lanes({0})), 1); }, "cannot exist");
+  expect_refusal([&] { wire::decode_lanes(view(wire::encode_lanes({wire::kMostLanes + 1})), 1); }, "cannot exist");
+  EXPECT_EQ(wire::decode_no_lanes(view(wire::encode_no_lanes("several\nhosts"))), "several?hosts");
+  DemTerms dem;
+  dem.lanes = wire::kMostLanes + 1;
+  expect_refusal([&] { wire::decode_dem_terms(view(wire::encode(dem))); }, "more lanes than there can be");
+}
+
+TEST(Wire, RowsOfAnotherRankOrMeetingAreRefused) {
+  const Bytes message = rows_message(true);
+  EXPECT_EQ(wire::decode_rows(view(message), true, {kLane, kMeeting}).count, kRows);
+  expect_refusal([&] { wire::decode_rows(view(message), true, {kLane + 1, kMeeting}); }, "another rank");
+  expect_refusal([&] { wire::decode_rows(view(message), true, {kLane, kMeeting + 1}); }, "another meeting");
+  expect_refusal([&] { wire::decode_rows(view(message), false, {kLane, kMeeting}); }, "another length than the terms");
+  expect_refusal([&] { wire::decode_samples(view(samples_message()), kMeeting + 1, kRows, kAsked); },
+                 "another question");
+  for (const std::uint64_t count : {std::uint64_t(4), wire::kMostParticles, ~std::uint64_t(0)}) {
+    const Bytes more = with(message, wire::kHeaderBytes, count);
+    EXPECT_THROW(wire::decode_rows(view(more), true, {kLane, kMeeting}), Refusal) << count;
+  }
 }
 
 TEST(Wire, CountsThatAreNotThereAreRefusedBeforeAnythingIsAllocated) {
@@ -215,7 +245,7 @@ TEST(Wire, CountsThatAreNotThereAreRefusedBeforeAnythingIsAllocated) {
     EXPECT_THROW(wire::decode_meeting(view(message), false, meeting), Refusal) << count;
   }
   const Bytes more = with(samples_message(), wire::kHeaderBytes, std::uint64_t(kRows + 1));
-  expect_refusal([&] { wire::decode_samples(view(more), kRows, kAsked); }, "another question");
+  expect_refusal([&] { wire::decode_samples(view(more), kMeeting, kRows, kAsked); }, "another question");
 }
 
 TEST(Wire, NumbersThatAreNoneAreRefused) {
@@ -227,7 +257,7 @@ TEST(Wire, NumbersThatAreNoneAreRefused) {
   const Bytes volume = with(meeting_message(false), rows + 24, 0.0);
   expect_refusal([&] { wire::decode_meeting(view(volume), false, meeting); }, "without volume");
   const Bytes sample = with(samples_message(), wire::kHeaderBytes + wire::kSamplesBytes, nan);
-  expect_refusal([&] { wire::decode_samples(view(sample), kRows, kAsked); }, "samples row 0 is no number");
+  expect_refusal([&] { wire::decode_samples(view(sample), kMeeting, kRows, kAsked); }, "samples row 0 is no number");
 }
 
 TEST(Wire, TicketsOfCellsThatDoNotExistAreRefused) {
