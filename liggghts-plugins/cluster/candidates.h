@@ -13,7 +13,7 @@
 namespace eccentra::cluster {
 
 /// A pair of sub-spheres as one number: a's index in the upper half, b's in the lower.
-inline int contact_id(int a, int b) {
+constexpr int contact_id(int a, int b) {
   return a << 16 | b;
 }
 inline int contact_sphere_a(int id) {
@@ -59,11 +59,18 @@ struct RelativePose {
 /// spheres stay in the cache, whereas coordinates for each candidate would be most of a body's memory.
 class CandidateStore {
  public:
-  void clear() { ids_.clear(); }
+  /// Lists may be read in whole chunks of so many ids.
+  static constexpr int chunk = 8;
+
+  void clear() {
+    ids_.clear();
+    used_ = 0;
+  }
   /// Room for `count` more; returns the index of the first.
   int reserve(int count) {
-    const int first = static_cast<int>(ids_.size());
-    ids_.resize(first + count);
+    const int first = used_;
+    used_ += count;
+    ids_.resize(used_ + chunk);
     return first;
   }
   int* at(int index) { return ids_.data() + index; }
@@ -72,6 +79,7 @@ class CandidateStore {
 
  private:
   std::vector<int> ids_;
+  int used_ = 0;
 };
 
 /// What a search found.

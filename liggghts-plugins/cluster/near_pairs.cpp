@@ -18,10 +18,16 @@ namespace eccentra::cluster {
 using namespace LAMMPS_NS;
 
 void ContactList::clear(std::size_t pairs) {
-  first.resize(pairs + 1);
+  first.assign(pairs + 1, 0);
   id.clear();
   for (auto& d : displacement)
     d.clear();
+}
+
+void ContactList::counts_to_places() {
+  int sum = 0;
+  for (int& f : first)
+    f = sum += f;
 }
 
 void ContactList::make_room(std::size_t count) {
@@ -97,6 +103,7 @@ void NearPairs::rebuild(const NeighList& list) {
   time_ = 0;
   change_.assign(bodies, {0, 0});
   bodies_now_.resize(bodies);
+  kind_.resize(bodies);
   forces_.resize(bodies);
   new_list_ = true;
   take_history();
@@ -107,6 +114,8 @@ void NearPairs::update_bodies(double dt, int held_groups) {
   const double *x = atom->x[0], *v = atom->v[0], *omega = atom->omega[0]; // LIGGGHTS keeps rows one after the other
   const int bodies = static_cast<int>(bodies_now_.size());
   time_ += static_cast<float>(dt);
+  if (new_list_)
+    kinds_.clear();
   for (int i = 0; i < bodies; ++i) {
     BodyState& body = bodies_now_[i];
     const SurfaceSpheres& surface = bodies_.shapes().surface(bodies_.shape_id(i));
@@ -115,6 +124,7 @@ void NearPairs::update_bodies(double dt, int held_groups) {
       body.mass = atom->rmass[i];
       body.type = atom->type[i];
       body.held = (atom->mask[i] & held_groups) != 0;
+      kind_[i] = kinds_.number({body.mass, body.type, body.held, &surface}, i);
       for (int k = 0; k < 3; ++k) {
         body.inverse_inertia[k] = surface.inverse_inertia[k];
         body.v[k] = v[3 * i + k];

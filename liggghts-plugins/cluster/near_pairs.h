@@ -9,6 +9,8 @@
 
 #include "pointers.h"
 
+#include <cstddef>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -65,12 +67,44 @@ struct VelocityChange {
   float speed, turning;
 };
 
+/// Numbers for what bodies have in common, so that one comparison tells whether they are alike.
+class BodyKinds {
+ public:
+  struct Kind {
+    double mass;
+    int type;
+    bool held;
+    const SurfaceSpheres* surface;
+    bool operator==(const Kind& k) const {
+      return mass == k.mass && type == k.type && held == k.held && surface == k.surface;
+    }
+  };
+  void clear() { known_.clear(); }
+  /// The number of body i's kind; where there are many kinds, some bodies have one of their own.
+  int number(const Kind& kind, int i) {
+    constexpr std::size_t most = 8;
+    for (std::size_t k = 0; k < known_.size(); ++k)
+      if (known_[k] == kind)
+        return static_cast<int>(k);
+    if (known_.size() == most)
+      return static_cast<int>(most) + i;
+    known_.push_back(kind);
+    return static_cast<int>(known_.size()) - 1;
+  }
+
+ private:
+  std::vector<Kind> known_;
+};
+
 /// Contacts of one step in the order of the pairs, ids ascending within a pair.
 struct ContactList {
-  std::vector<int> first; ///< per pair, and one past the end; room for that
+  std::vector<int> first; ///< per pair, and one past the end
   std::vector<int> id;
   std::vector<double> displacement[3];
+  /// No contacts; `first` is all 0.
   void clear(std::size_t pairs);
+  /// Makes `first` of the counts that have been written one place behind each pair's own.
+  void counts_to_places();
   /// Makes room for `count` contacts and some more, or gives back what is far too much.
   void make_room(std::size_t count);
   int size() const { return static_cast<int>(id.size()); }
@@ -99,6 +133,16 @@ class NearPairs : protected LAMMPS_NS::Pointers {
   /// Once a step of `dt` [s]: states of all bodies, ghosts as well, and changes of their velocities; no forces.
   void update_bodies(double dt, int held_groups);
   const BodyState& body(int i) const { return bodies_now_[i]; }
+  /// The same number for bodies of the same mass, material and shape.
+  int kind(int i) const { return kind_[i]; }
+  /// From A's centre to B's [m]; fourth lane: anything.
+  Double4 offset(const NearPair& p) const {
+    Double4 a, b; // of the mass, too, as it stands beside the position
+    static_assert(offsetof(BodyState, mass) == 3 * sizeof(double));
+    std::memcpy(&a, &bodies_now_[p.a], sizeof a);
+    std::memcpy(&b, &bodies_now_[p.b], sizeof b);
+    return b - a;
+  }
   /// Local and ghost atoms, as of the list.
   int body_count() const { return static_cast<int>(bodies_now_.size()); }
   /// True for a body without any velocity in this step.
@@ -166,6 +210,8 @@ class NearPairs : protected LAMMPS_NS::Pointers {
   int local_at_build_ = 0;
   float time_ = 0; ///< since the list was made [s]
   bool new_list_ = true;
+  BodyKinds kinds_;
+  std::vector<int> kind_; ///< per body
   std::vector<VelocityChange> change_;
   std::vector<BodyState> bodies_now_;
   std::vector<BodyForce> forces_;

@@ -12,7 +12,7 @@ namespace eccentra::cluster {
 
 /// Pairs of bodies A and B that touch, as structure of arrays; world frame. No more pairs than contacts in a block.
 struct PairBlock {
-  using Row = double[ContactBlock::capacity];
+  using Row = double[ContactBlock::capacity + contact_width];
 
   // In: what all contacts of a pair have in common.
   Row offset[3];                  ///< from A's centre to B's [m]

@@ -7,6 +7,7 @@
 #include "cluster/near_pairs.h"
 #include "cluster/off_centre.h"
 #include "cluster/resting_pairs.h"
+#include "cluster/waiting_pairs.h"
 
 #include <mpi.h>
 
@@ -56,17 +57,15 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
     int first, last;         ///< contacts in the block
     int old_first, old_last; ///< contacts of the last step
   };
-  /// Contacts found among candidates, and the least (distance^2 - (sum of radii)^2) of them all [m2].
-  struct Gathered {
-    int count;
-    double least;
-  };
 
   // The loop over pairs (pair_gran_cluster_forces.cpp).
-  int pair_contacts(int number, bool fresh, const double* offset, int old_first, int old_last);
+  void look_at(int number, bool fresh);
+  void renew_candidates(int number, NearPair& p, const double* offset);
+  int preselect(int number, const NearPair& p, const double* offset);
+  inline void wait(int number, const NearPair& p, const Double4& to_b, const int* ids, int count, bool may_idle);
+  void not_touching(const WaitingPair& pair, int number_waiting);
   void may_idle(int number, const double* offset, double gap);
   void search_candidates(NearPair& p, const RelativePose& pose, const double* offset);
-  RelativePose pose_of(const NearPair& p, const double* offset) const;
 
   // Pairs that rest (pair_gran_cluster_rest.cpp).
   void rest();
@@ -74,18 +73,18 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   void add_resting_forces();
 
   // Contacts in blocks (pair_gran_cluster_blocks.cpp).
-  Gathered gather(const NearPair& p, const double* offset, const int* ids, int count, int old_first, int old_last);
-  template <class Block>
-  Gathered gather_into(Block& block, const NearPair& p, const double* offset, const int* ids, int count, int old_first,
-                       int old_last);
-  template <class Block>
-  void add_pair(Block& block, const NearPair& p, const double* offset, int last, int old_first, int old_last);
-  void flush();
-  template <class Block> void flush(Block& block);
+  void evaluate_waiting();
+  void evaluate_large();
+  template <class Block> void evaluate_waiting(Block& block);
+  template <class Block> void find_contacts(Block& block);
+  template <class Block> void find_contacts_of_spheres(Block& block);
+  template <class Block> void add_pair(Block& block, const WaitingPair& waiting, int first);
+  template <class Block> void fill_materials(Block& block, const WaitingPair& waiting, int first, int number);
+  void fill_inertia(const WaitingPair& waiting, int number);
   template <class Block> void recall_history(Block& block);
   template <DampingLaw law, class Block> void compute_block(Block& block, int padded);
   template <class Block> void share_damping(Block& block, int padded);
-  void scatter(int pair);
+  template <class Forces> void scatter(int pair, const Forces& forces);
 
   ClusterContactWords words_;
   FixBodies* bodies_ = nullptr;
@@ -94,25 +93,20 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   CandidateSearch search_;
   std::vector<int> hits_;
   std::vector<int> awake_; ///< pairs that need a look; ~n where the candidates are no longer all that can touch
+  WaitingPairs waiting_;
   PairInBlock in_block_[ContactBlock::capacity];
   PairBlock pairs_ = {};
-  /// The shapes whose inertia fills all rows of pairs_, or null.
-  const SurfaceSpheres *isotropic_a_ = nullptr, *isotropic_b_ = nullptr;
   int pairs_in_block_ = 0;
   ContactBlock block_ = {};
   std::unique_ptr<LargeContactBlock> large_block_; ///< made when a pair needs it
   int filled_ = 0;                                 ///< contacts in the block
+  bool single_contacts_ = false;                   ///< each pair in it has one, between the centres of two spheres
   std::vector<int> block_ids_;                     ///< their contact_id
   std::vector<int> block_pair_;                    ///< and their pair in the block
-  /// Materials and mass of the contacts in the block, where all of them have the same.
-  struct Common {
-    double mass, youngs, shear, damping, friction;
-    bool operator==(const Common& c) const {
-      return mass == c.mass && youngs == c.youngs && shear == c.shear && damping == c.damping && friction == c.friction;
-    }
-  };
-  Common common_ = {};
-  bool common_everywhere_ = false; ///< all rows of the block are filled with it
+  /// The kinds of A and B with whose masses and materials all rows of block_ and pairs_ are filled, if they are ...
+  int kind_a_ = 0, kind_b_ = 0;
+  bool one_kind_ = false;
+  bool one_inertia_ = false; ///< ... and with their inertia, which orientation does not change
   bool advance_ = false;
   double** youngs_ = nullptr;
   double** shear_ = nullptr;

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace eccentra::cluster {
 
@@ -36,7 +37,7 @@ constexpr double path_safety = 1.06;
 /// Single precision preselects: round-off of coordinates, as part of the bounding radii.
 constexpr double round_off = 1e-6;
 /// So many pairs ahead data are asked for.
-constexpr int prefetched_ahead = 3;
+constexpr int prefetched_ahead = 8;
 
 } // namespace
 
@@ -54,33 +55,26 @@ void PairGranCluster::compute_force(int eflag, int vflag, int addflag) {
   NearPairs& near = *near_;
   const int pair_count = static_cast<int>(near.pairs.size());
   near.next.clear(pair_count);
-  filled_ = pairs_in_block_ = contact_count_ = near_count_ = 0;
+  near_count_ = 0;
+  one_kind_ = false; // kinds are numbered anew with each list, and properties may change
   near.update_bodies(path_safety * update->dt, freeze_group_bit());
   if (resting_)
     rest();
 
-  int* first = near.next.first.data();
-  const int* old_first = near.contacts.first.data();
   // First which pairs need a look, so that what they need can be on its way when their turn comes.
   awake_.resize(pair_count);
   const int awake = near.find_awake(awake_.data());
-  int next = 0; // pair whose place among the contacts is not known yet
   for (int k = 0; k < awake; ++k) {
     if (k + prefetched_ahead < awake) {
       const int ahead = awake_[k + prefetched_ahead];
       near.prefetch(ahead < 0 ? ~ahead : ahead);
     }
     const bool fresh = awake_[k] >= 0;
-    const int n = fresh ? awake_[k] : ~awake_[k];
-    while (next <= n)
-      first[next++] = contact_count_;
-    const double *xa = near.body(near.wakes[n].a).x, *xb = near.body(near.wakes[n].b).x;
-    const double offset[3] = {xb[0] - xa[0], xb[1] - xa[1], xb[2] - xa[2]};
-    contact_count_ += pair_contacts(n, fresh, offset, old_first[n], old_first[n + 1]);
+    look_at(fresh ? awake_[k] : ~awake_[k], fresh);
   }
-  flush();
-  while (next <= pair_count)
-    first[next++] = contact_count_;
+  evaluate_waiting();
+  near.next.counts_to_places();
+  contact_count_ = near.next.size();
   near.add_forces();
   near.accept();
   if (resting_)
@@ -88,70 +82,104 @@ void PairGranCluster::compute_force(int eflag, int vflag, int addflag) {
   near.set_counts(contact_count_, near_count_);
 }
 
-/// Puts the contacts of a pair of bodies into the block; returns how many there are. `fresh`: the candidates are still
-/// all that can touch.
-int PairGranCluster::pair_contacts(int number, bool fresh, const double* offset, int old_first, int old_last) {
-  NearPair& p = near_->pairs[number];
-  if (p.direct()) {
-    const int only = contact_id(0, 0);
-    const Gathered found = gather(p, offset, &only, 1, old_first, old_last);
-    if (found.count == 0) {
-      const double sum = p.surface_a->bounding_radius + p.extra_a + p.surface_b->bounding_radius + p.extra_b;
-      const double gap = std::sqrt(found.least + sum * sum) - sum;
-      near_->note_look(number, offset, (1 - round_off) * gap, true);
-    }
-    return found.count;
-  }
-  RelativePose pose;
-  if (!fresh) {
-    if (p.candidate_count == 0) {
-      const double between = std::sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]);
-      const double room = (1 - round_off) * between - p.range();
-      if (room > 0) {
-        p.skin = 0;
-        near_->note_apart(number, room);
-        return 0;
-      }
-    }
-    pose = pose_of(p, offset);
-    float left = 0;
-    if (p.skin > 0)
-      left = p.skin - pose.moved_since(near_->searches[p.search].pose, static_cast<float>(p.bound_b()));
-    if (left <= skin_used_up * p.skin) {
-      search_candidates(p, pose, offset);
-      left = p.skin;
-    }
-    near_->note_look(number, offset, left, p.candidate_count == 0);
-  }
-  if (p.candidate_count == 0)
-    return 0;
-  ++near_count_;
-  const int* candidates = near_->candidates.at(p.candidate_first);
-  const int count = p.candidate_count;
-  if (count <= tested_at_once) {
-    const Gathered found = gather(p, offset, candidates, count, old_first, old_last);
-    if (found.count == 0) {
-      // (d - s) (d + s) = least; no candidate is farther away than the pair's skin allows.
-      const double widest = 2 * p.largest_reach() + 2 * p.skin;
-      may_idle(number, offset, found.least / widest);
-    }
-    return found.count;
-  }
-  if (fresh)
-    pose = pose_of(p, offset);
-  const PosedShapes shapes = {*p.surface_a, *p.surface_b, static_cast<float>(p.extra_a + p.extra_b), pose};
-  if (static_cast<int>(hits_.size()) < count)
-    hits_.resize(2 * count);
-  const int hits =
-      overlapping_candidates(shapes, candidates, count, static_cast<float>(round_off * p.range()), hits_.data());
-  if (hits > 0)
-    return gather(p, offset, hits_.data(), hits, old_first, old_last).count;
-  may_idle(number, offset, least_gap(shapes, candidates, count));
-  return 0;
+/// Lets a pair wait with its `count` possible contacts, and evaluates all that wait once they are enough.
+inline void PairGranCluster::wait(int number, const NearPair& p, const Double4& to_b, const int* ids, int count,
+                                  bool may_idle) {
+  if (!waiting_.has_room(count))
+    evaluate_waiting();
+  WaitingPair& pair = waiting_.add(p.direct(), ids, count);
+  pair.to_b = to_b;
+  pair.a = &near_->body(p.a);
+  pair.b = &near_->body(p.b);
+  pair.spheres_a = p.surface_a->sphere.data();
+  pair.spheres_b = p.surface_b->sphere.data();
+  pair.extra_a = p.extra_a;
+  pair.extra_b = p.extra_b;
+  pair.number = number;
+  pair.may_idle = may_idle;
+  if (count > WaitingPairs::capacity)
+    evaluate_large();
+  else if (waiting_.candidates() >= WaitingPairs::enough)
+    evaluate_waiting();
 }
 
-RelativePose PairGranCluster::pose_of(const NearPair& p, const double* offset) const {
-  return {near_->body(p.a), near_->body(p.b), offset};
+/// Lets a pair of bodies wait for the exact test of its candidates. `fresh`: they are still all that can touch.
+void PairGranCluster::look_at(int number, bool fresh) {
+  NearPair& p = near_->pairs[number];
+  const Double4 to_b = near_->offset(p);
+  if (p.direct()) {
+    static constexpr int only[CandidateStore::chunk] = {contact_id(0, 0)};
+    wait(number, p, to_b, only, 1, true);
+    return;
+  }
+  const double offset[3] = {to_b[0], to_b[1], to_b[2]};
+  if (!fresh)
+    renew_candidates(number, p, offset);
+  if (p.candidate_count == 0)
+    return;
+  ++near_count_;
+  if (p.candidate_count <= tested_at_once)
+    wait(number, p, to_b, near_->candidates.at(p.candidate_first), p.candidate_count, true);
+  else if (const int hits = preselect(number, p, offset); hits > 0)
+    wait(number, p, to_b, hits_.data(), hits, false);
+}
+
+/// Looks whether a pair's candidates still are all that can touch, and else for others.
+void PairGranCluster::renew_candidates(int number, NearPair& p, const double* offset) {
+  if (p.candidate_count == 0) {
+    const double between = std::sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]);
+    const double room = (1 - round_off) * between - p.range();
+    if (room > 0) {
+      p.skin = 0;
+      near_->note_apart(number, room);
+      return;
+    }
+  }
+  const RelativePose pose(near_->body(p.a), near_->body(p.b), offset);
+  float left = 0;
+  if (p.skin > 0)
+    left = p.skin - pose.moved_since(near_->searches[p.search].pose, static_cast<float>(p.bound_b()));
+  if (left <= skin_used_up * p.skin) {
+    search_candidates(p, pose, offset);
+    left = p.skin;
+  }
+  near_->note_look(number, offset, left, p.candidate_count == 0);
+}
+
+/// Puts those candidates of a pair that seem to touch in single precision into hits_; returns how many.
+int PairGranCluster::preselect(int number, const NearPair& p, const double* offset) {
+  const RelativePose pose(near_->body(p.a), near_->body(p.b), offset);
+  const int* candidates = near_->candidates.at(p.candidate_first);
+  const int count = p.candidate_count;
+  const PosedShapes shapes = {*p.surface_a, *p.surface_b, static_cast<float>(p.extra_a + p.extra_b), pose};
+  if (static_cast<int>(hits_.size()) < count + CandidateStore::chunk)
+    hits_.resize(2 * count + CandidateStore::chunk);
+  const int hits =
+      overlapping_candidates(shapes, candidates, count, static_cast<float>(round_off * p.range()), hits_.data());
+  if (hits == 0)
+    may_idle(number, offset, least_gap(shapes, candidates, count));
+  return hits;
+}
+
+/// What the exact test, which has found no contact of the pair, tells about how long it may rest.
+void PairGranCluster::not_touching(const WaitingPair& waiting, int number_waiting) {
+  if (!waiting.may_idle)
+    return;
+  const NearPair& p = near_->pairs[waiting.number];
+  const double offset[3] = {waiting.to_b[0], waiting.to_b[1], waiting.to_b[2]};
+  const double* excess = waiting_.excess();
+  double least = std::numeric_limits<double>::max();
+  for (int n = waiting_.first_candidate(number_waiting); n < waiting.last_candidate; ++n)
+    least = std::min(least, excess[n]);
+  if (p.direct()) {
+    const double sum = p.range();
+    const double gap = std::sqrt(least + sum * sum) - sum;
+    near_->note_look(waiting.number, offset, (1 - round_off) * gap, true);
+    return;
+  }
+  // (d - s) (d + s) = least; no candidate is farther away than the pair's skin allows.
+  const double widest = 2 * p.largest_reach() + 2 * p.skin;
+  may_idle(waiting.number, offset, least / widest);
 }
 
 /// Lets a pair that has just been seen not to touch rest until its gap [m] can have closed, if that is worth while.

@@ -36,9 +36,11 @@ RestingPairs::Kept PairGranCluster::evaluate_alone(int n) {
   for (int s = 0; s < 2; ++s)
     before[s] = std::exchange(near_->force(bodies[s]), BodyForce());
   ContactList& next = near_->next;
-  const ContactList& old = near_->contacts;
-  const int count = pair_contacts(n, false, kept.offset, old.first[n], old.first[n + 1]);
-  flush();
+  const int before_it = next.size();
+  look_at(n, false);
+  evaluate_waiting();
+  const int count = next.size() - before_it;
+  next.first[n + 1] = 0;
   near_->leave_alone(n);
   for (int m = next.size() - count; m < next.size(); ++m)
     kept.contacts.push_back({next.id[m], {next.displacement[0][m], next.displacement[1][m], next.displacement[2][m]}});
