@@ -3,6 +3,7 @@
 // fix nve/cluster: motion of clusters and plain spheres, velocity Verlet with exact rotations.
 #include "cluster/bodies.h"
 #include "cluster/sleep_cluster.h"
+#include "cluster/turning_block.h"
 #include "host/style_registry.h"
 
 #include "atom.h"
@@ -90,6 +91,7 @@ class FixNveCluster : public Fix {
       if (bodies_->shape_id(i) != FixBodies::plain_sphere)
         turn(i, per_mass);
     }
+    turn_block();
   }
 
   void final_integrate() override {
@@ -170,6 +172,10 @@ class FixNveCluster : public Fix {
       set_omega(i, rate);
       const double turn = rate * dt_;
       const double angle[3] = {momentum[0] * turn, momentum[1] * turn, momentum[2] * turn};
+      if (turns_in_block(angle)) {
+        add_to_block(i, angle);
+        return;
+      }
       rotate_in_world(bodies_->quaternion(i), angle);
       normalise(bodies_->quaternion(i));
     } else {
@@ -180,6 +186,31 @@ class FixNveCluster : public Fix {
       rotation_matrix(bodies_->quaternion(i), bodies_->rotation(i));
     if (!rotation.spherical())
       bodies_->omega_from_momentum(i);
+  }
+
+  void add_to_block(int i, const double* angle) {
+    const int m = turning_.count++;
+    const double* q = bodies_->quaternion(i);
+    turning_.body[m] = i;
+    for (int k = 0; k < 3; ++k)
+      turning_.angle[k][m] = angle[k];
+    for (int k = 0; k < 4; ++k)
+      turning_.quaternion[k][m] = q[k];
+    if (turning_.count == TurningBlock::width)
+      turn_block();
+  }
+
+  void turn_block() {
+    turn_all(turning_);
+    for (int m = 0; m < turning_.count; ++m) {
+      double *q = bodies_->quaternion(turning_.body[m]), *r = bodies_->rotation(turning_.body[m]);
+      for (int k = 0; k < 4; ++k)
+        q[k] = turning_.quaternion[k][m];
+      // A round body's is needed by nobody, but to ask whether it is one takes as long.
+      for (int k = 0; k < 9; ++k)
+        r[k] = turning_.matrix[k][m];
+    }
+    turning_.count = 0;
   }
 
   double quantity(int i, int n) {
@@ -205,6 +236,7 @@ class FixNveCluster : public Fix {
   FixPropertyAtom* streamed_ = nullptr;    ///< what fix insert/stream keeps per atom, if there is one
   double dt_ = 0;
   double half_kick_ = 0;
+  TurningBlock turning_;
 };
 
 namespace {

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rigid-body motion without torque: conserved quantities, the closed form of the symmetric top, the intermediate axis.
 #include "cluster/rigid_rotation.h"
+#include "cluster/turning_block.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <limits>
 
 using namespace eccentra::cluster;
 
@@ -146,4 +148,54 @@ TEST(FreeRotation, IntermediateAxisFlips) {
   }
   ASSERT_LT(reference, 100) << "Euler's equations flip";
   EXPECT_NEAR(time, reference, 5 * dt);
+}
+
+TEST(TurningBlock, TurnsAsOneBodyAlone) {
+  // Angles up to the longest that a block takes; fewer bodies than there are places.
+  constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
+  TurningBlock block;
+  double alone[TurningBlock::width][4];
+  block.count = TurningBlock::width - 2;
+  for (int m = 0; m < block.count; ++m) {
+    const Eigen::Vector3d angle = 0.199 * m / block.count * Eigen::Vector3d(1, -2, m).normalized();
+    ASSERT_TRUE(turns_in_block(angle.data()));
+    const Eigen::Quaterniond start(Eigen::AngleAxisd(0.7 * m, Eigen::Vector3d(m, 1, 2).normalized()));
+    const double q[4] = {start.w(), start.x(), start.y(), start.z()};
+    for (int k = 0; k < 4; ++k)
+      block.quaternion[k][m] = alone[m][k] = q[k];
+    for (int k = 0; k < 3; ++k)
+      block.angle[k][m] = angle[k];
+    rotate_in_world(alone[m], angle.data());
+    normalise(alone[m]);
+  }
+  turn_all(block);
+  for (int m = 0; m < block.count; ++m) {
+    double matrix[9];
+    rotation_matrix(alone[m], matrix);
+    for (int k = 0; k < 4; ++k)
+      EXPECT_NEAR(block.quaternion[k][m], alone[m][k], round_off);
+    for (int k = 0; k < 9; ++k)
+      EXPECT_NEAR(block.matrix[k][m], matrix[k], 2 * round_off);
+  }
+}
+
+TEST(TurningBlock, RoundsTheSameInAnyPlace) {
+  TurningBlock first, last;
+  const double angle[3] = {1e-3, -7e-4, 3e-4}, q[4] = {0.5, -0.1, 0.7, 0.5};
+  constexpr int end = TurningBlock::width - 1;
+  for (int k = 0; k < 3; ++k)
+    first.angle[k][0] = last.angle[k][end] = angle[k];
+  for (int k = 0; k < 4; ++k)
+    first.quaternion[k][0] = last.quaternion[k][end] = q[k];
+  turn_all(first);
+  turn_all(last);
+  for (int k = 0; k < 4; ++k)
+    EXPECT_EQ(first.quaternion[k][0], last.quaternion[k][end]);
+  for (int k = 0; k < 9; ++k)
+    EXPECT_EQ(first.matrix[k][0], last.matrix[k][end]);
+}
+
+TEST(TurningBlock, LeavesLongTurnsToOthers) {
+  const double longer[3] = {0.15, 0.15, 0.15};
+  EXPECT_FALSE(turns_in_block(longer)) << "where the series of sine and cosine has ended";
 }
