@@ -349,7 +349,8 @@ void Channel::refuse(const std::string& sentence) noexcept {
 void Channel::close() noexcept {
   if (!state_->socket)
     return;
-  if (!state_->came)
+  // Nothing is left to be delivered to who is not there: a peer that is stopped would only keep this side waiting.
+  if (!state_->came || state_->gone)
     state_->socket.set(zmq::sockopt::linger, 0);
   state_->monitor.close();
   state_->socket.close();

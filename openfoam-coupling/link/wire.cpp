@@ -404,29 +404,29 @@ void Guests::load(const std::vector<Rows>& parts, bool extents, unsigned quantit
   drag_.resize(count_);
   extent_.resize(extents ? kExtentDoubles * count_ + 1 : 0);
   ticket_.resize(count_);
+  const std::size_t row_bytes = particle_row_bytes(extents);
   std::size_t i = 0;
-  for (const Rows& rows : parts)
-    for (std::size_t k = 0; k < rows.count; ++k)
-      take(rows.data + k * particle_row_bytes(extents), i++);
+  for (const Rows& rows : parts) {
+    for (std::size_t k = 0; k < rows.count; ++k, ++i) {
+      const std::byte* from = rows.data + k * row_bytes;
+      const auto take = [&from](void* to, std::size_t bytes) {
+        std::memcpy(to, from, bytes);
+        from += bytes;
+      };
+      take(&position_[3 * i], 3 * sizeof(double));
+      take(&volume_[i], sizeof(double));
+      take(&impulse_[3 * i], 3 * sizeof(double));
+      take(&drag_[i], sizeof(double));
+      if (extents)
+        take(&extent_[kExtentDoubles * i], kExtentDoubles * sizeof(double));
+      take(&ticket_[i], sizeof(Ticket));
+      if (ticket_[i].rank < 0)
+        ticket_[i] = Ticket{};
+    }
+  }
   int bit = 0;
   for (std::vector<double>* values : {&velocity_, &fraction_, &pressure_gradient_, &stress_divergence_, &vorticity_})
     size_for(*values, count_, quantities, bit++);
-}
-
-void Guests::take(const std::byte* row, std::size_t i) {
-  const auto next = [&row](void* to, std::size_t bytes) {
-    std::memcpy(to, row, bytes);
-    row += bytes;
-  };
-  next(&position_[3 * i], 3 * sizeof(double));
-  next(&volume_[i], sizeof(double));
-  next(&impulse_[3 * i], 3 * sizeof(double));
-  next(&drag_[i], sizeof(double));
-  if (extents_)
-    next(&extent_[kExtentDoubles * i], kExtentDoubles * sizeof(double));
-  next(&ticket_[i], sizeof(Ticket));
-  if (ticket_[i].rank < 0)
-    ticket_[i] = Ticket{};
 }
 
 ParticleArrays Guests::particles() {

@@ -130,7 +130,6 @@ class Guests {
   void pack_samples(std::size_t first, std::size_t count, std::byte* rows) const;
 
  private:
-  void take(const std::byte* row, std::size_t i);
   std::size_t count_ = 0;
   unsigned quantities_ = 0;
   bool extents_ = false;

@@ -70,9 +70,11 @@ TEST(TwoHosts, MeetOverTcpWithKeysAndNoticeACutCable) {
   replace_in(folder + "/constant/couplingProperties", "wait 0.01;", "");
   eccentra::link::make_keys(folder + "/keys");
   BackgroundJob fluid(folder, hosts.on(0, command("annulusFoam", {}, 1)), "log.fluid");
-  BackgroundJob particles(folder, hosts.on(1, command("eccentra-dem", {"-in", "in.dem", "-log", "none"}, 1)),
+  // Of two ranks: the second one has a lane of its own, with a port that nobody has named.
+  BackgroundJob particles(folder, hosts.on(1, command("eccentra-dem", {"-in", "in.dem", "-log", "none"}, 2)),
                           "log.dem");
   EXPECT_TRUE(fluid.says("t 0.1 s", kStart)) << fluid.text() << particles.text();
+  EXPECT_EQ(particles.text().find("travel over rank 0"), std::string::npos) << particles.text();
   if (!hosts.there())
     return;
   hosts.cut();
