@@ -7,6 +7,7 @@
 #include "cluster/surface_spheres.h"
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -70,7 +71,10 @@ class CandidateStore {
   int reserve(int count) {
     const int first = used_;
     used_ += count;
-    ids_.resize(used_ + chunk);
+    const std::size_t needed = std::size_t(used_) + chunk;
+    if (needed > ids_.capacity())
+      ids_.reserve(needed + needed / 8); // twice as much, as a vector would, is most of a body's memory
+    ids_.resize(needed);
     return first;
   }
   int* at(int index) { return ids_.data() + index; }
