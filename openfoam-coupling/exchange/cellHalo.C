@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Messages without waiting in between.
-#include "cellHalo.H"
+#include "exchange/cellHalo.H"
 
-#include "sharedPatches.H"
+#include "exchange/sharedPatches.H"
 
 #include <algorithm>
 

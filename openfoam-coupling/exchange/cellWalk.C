@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Walks through the face planes of convex cells.
-#include "cellWalk.H"
+#include "exchange/cellWalk.H"
 
-#include "sharedPatches.H"
+#include "exchange/sharedPatches.H"
 
 #include "cyclicPolyPatch.H"
 #include "processorPolyPatch.H"

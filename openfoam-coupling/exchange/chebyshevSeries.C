@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Interpolation in Chebyshev nodes, cut where the rest is below the tolerance.
-#include "chebyshevSeries.H"
+#include "exchange/chebyshevSeries.H"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The matrix uses the orthogonal part of the face gradient only: symmetric, and no new extrema.
-#include "conservativeDiffusion.H"
+#include "exchange/conservativeDiffusion.H"
 
-#include "chebyshevSeries.H"
+#include "exchange/chebyshevSeries.H"
 
 #include "cyclicPolyPatch.H"
 #include "surfaceFields.H"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Quadrature points of spheres, clusters and Gaussian kernels.
-#include "depositionPoints.H"
+#include "exchange/depositionPoints.H"
 
 #include <cmath>
 #include <stdexcept>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // On even cells, in one direction: means of a quadratic spline with coefficients c are (c- + 4 c + c+)/6.
-#include "flowReading.H"
+#include "exchange/flowReading.H"
 
 #include "syncTools.H"
 #include "volFields.H"

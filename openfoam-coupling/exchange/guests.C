@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Particles cross from the ranks of DEM to the ranks of the mesh.
-#include "guests.H"
+#include "exchange/guests.H"
 
 #include "boundBox.H"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rounds of moves between neighbours, kept so that they can be repeated and transposed.
-#include "overflowSpreading.H"
+#include "exchange/overflowSpreading.H"
 
 #include "syncTools.H"
 #include "volFields.H"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Accounts of impulse, cell by cell.
-#include "owedForce.H"
+#include "exchange/owedForce.H"
 
 namespace eccentra::exchange {
 

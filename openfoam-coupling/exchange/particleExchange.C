@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Deposit and sample, with the same weights.
-#include "particleExchange.H"
+#include "exchange/particleExchange.H"
 
-#include "rankSums.H"
+#include "support/rankSums.H"
 
 #include "fvcGrad.H"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Two ranks may share one plain and several periodic processor patches; the name of the periodic pair orders them.
-#include "sharedPatches.H"
+#include "exchange/sharedPatches.H"
 
 #include "cyclicPolyPatch.H"
 #include "processorCyclicPolyPatch.H"

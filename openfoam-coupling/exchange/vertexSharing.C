@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shares of cells and vertices; vertices on processor and periodic patches are one vertex.
-#include "vertexSharing.H"
+#include "exchange/vertexSharing.H"
 
 #include "cellPointWeight.H"
 #include "globalMeshData.H"

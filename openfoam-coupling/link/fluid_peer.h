@@ -3,7 +3,7 @@
 // The fluid as the DEM side sees it, whatever carries the data. No LIGGGHTS types, no OpenFOAM types.
 #pragma once
 
-#include "fluid/fluid_quantities.h"
+#include "link/flow_quantities.h"
 #include "link/terms.h"
 
 #include <cstddef>

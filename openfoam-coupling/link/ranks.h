@@ -3,7 +3,7 @@
 // What rank 0 learns from the link reaches the other ranks of its side; they sleep while they wait.
 #pragma once
 
-#include "link/wire.h"
+#include "link/socket/wire.h"
 
 #include <mpi.h>
 

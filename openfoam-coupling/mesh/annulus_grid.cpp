@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bipolar grid of an eccentric annulus.
-#include "annulus_grid.h"
+#include "mesh/annulus_grid.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The laws of herschel_bulkley.h as viscosity models that any incompressible solver can select.
-#include "yieldStressViscosity.H"
+#include "rheology/yieldStressViscosity.H"
 
 #include "addToRunTimeSelectionTable.H"
 #include "surfaceFields.H"

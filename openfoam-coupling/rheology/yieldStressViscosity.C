@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads Herschel-Bulkley coefficients and keeps the viscosity field.
-#include "yieldStressViscosity.H"
+#include "rheology/yieldStressViscosity.H"
 
 #include "calculatedFvPatchFields.H"
 #include "fvcGrad.H"

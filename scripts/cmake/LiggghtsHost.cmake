@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The stock LIGGGHTS that Debian installs, as the interface target liggghts_host.
-find_package(MPI REQUIRED COMPONENTS CXX)
 find_path(LIGGGHTS_INCLUDE_DIR lammps.h PATH_SUFFIXES liggghts)
 find_library(LIGGGHTS_LIBRARY liggghts)
 find_program(LIGGGHTS_EXECUTABLE liggghts)
@@ -21,14 +20,14 @@ foreach(_kind surface normal tangential cohesion rolling)
     string(APPEND _text "#include \"${_model}\"\n")
   endforeach()
   if(_kind STREQUAL "rolling")
-    # Ours; each is empty until its own header is seen through liggghts-plugins/rolling.
-    string(APPEND _text "#include \"rolling/rolling_models.h\"\n")
+    # Ours; each is empty until its own header is seen through liggghts-plugins/styles/rolling.
+    string(APPEND _text "#include \"styles/rolling/rolling_models.h\"\n")
   endif()
   file(CONFIGURE OUTPUT "${_generated}/style_${_kind}_model.h" CONTENT "${_text}" @ONLY)
 endforeach()
 file(CONFIGURE OUTPUT "${_generated}/style_contact_model.h" CONTENT "" @ONLY)
 
-# The version that we build against: the guard in host/ compares it with the one that loads us.
+# The version that we build against: the guard in styles/entry/ compares it with the one that loads us.
 execute_process(COMMAND ${CMAKE_COMMAND} -E env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
     ${LIGGGHTS_EXECUTABLE} -in /dev/null -log none
   OUTPUT_VARIABLE _banner ERROR_QUIET WORKING_DIRECTORY "${PROJECT_BINARY_DIR}")

@@ -15,7 +15,7 @@ if(NOT "${_headers_version}" STREQUAL "${_library_version}")
 endif()
 
 add_library(openfoam_host INTERFACE)
-# __restrict__: g++ 12 makes wrong numbers of OpenFOAM's in-place field operators with it; tests/openfoam guards this line.
+# __restrict__: g++ 12 makes wrong numbers of OpenFOAM's in-place field operators with it; tests/flow guards this line.
 target_compile_definitions(openfoam_host INTERFACE
   OPENFOAM=1912 WM_DP WM_LABEL_SIZE=32 NoRepository OMPI_SKIP_MPICXX "__restrict__=")
 # -ftrapping-math: OpenFOAM traps floating-point errors, so a guarded division must not be computed speculatively. Name

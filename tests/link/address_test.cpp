@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Addresses of this machine are taken, all others refused.
-#include "link/address.h"
+#include "link/socket/address.h"
 
 #include "link/terms.h"
 

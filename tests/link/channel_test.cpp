@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Messages cross; strangers at the address neither join nor disturb; an address is not taken from its owner.
-#include "link/channel.h"
-#include "link/keys.h"
+#include "link/socket/channel.h"
+#include "link/socket/keys.h"
 
 #include <gtest/gtest.h>
 #include <zmq.hpp>

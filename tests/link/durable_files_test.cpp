@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Folders are there in full or not at all; damage of any kind is seen; a disk that is full is told, and harms nothing.
-#include "link/checkpoint_choice.h"
-#include "link/durable_files.h"
+#include "link/checkpoint/checkpoint_choice.h"
+#include "link/checkpoint/durable_files.h"
 
 #include <gtest/gtest.h>
 

@@ -3,9 +3,9 @@
 // The two sides of a socket link in one MPI job, and sides of one process that pretend to be one rank of several.
 #pragma once
 
-#include "link/fluid_server.h"
 #include "link/ranks.h"
-#include "link/socket_peer.h"
+#include "link/socket/fluid_server.h"
+#include "link/socket/socket_peer.h"
 
 #include <gtest/gtest.h>
 #include <mpi.h>

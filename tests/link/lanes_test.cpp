@@ -3,8 +3,8 @@
 // Each rank's particles travel on a connection of their own, whatever the numbers of ranks; where there is none all
 // travel over rank 0 with the same result; a lane that fails ends all ranks of a side with one sentence. Run on five
 // ranks.
-#include "link/keys.h"
 #include "link/lane_sides.h"
+#include "link/socket/keys.h"
 
 #include <gtest/gtest.h>
 #include <mpi.h>

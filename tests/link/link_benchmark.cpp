@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Time of one meeting over the socket link alone: the first ranks are the DEM side, the others a fluid that answers at
 // once.
-#include "link/fluid_server.h"
-#include "link/socket_peer.h"
-#include "link/wire.h"
+#include "link/socket/fluid_server.h"
+#include "link/socket/socket_peer.h"
+#include "link/socket/wire.h"
 
 #include <mpi.h>
 

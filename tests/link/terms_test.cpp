@@ -3,7 +3,7 @@
 // Two sides that fit agree; each way of not fitting is refused with a sentence that names both values.
 #include "link/terms.h"
 
-#include "fluid/fluid_quantities.h"
+#include "link/flow_quantities.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The two jobs on two hosts, over TCP with keys: two network namespaces and a cable between them, which is then cut.
 #include "coupled/checkpoint_scene.h"
-#include "link/keys.h"
+#include "link/socket/keys.h"
 #include "link/two_jobs.h"
 
 #include <gtest/gtest.h>

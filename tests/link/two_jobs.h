@@ -4,7 +4,7 @@
 #pragma once
 
 #include "link/background_job.h"
-#include "link/durable_files.h"
+#include "link/checkpoint/durable_files.h"
 #include "support/read_file.h"
 
 #include <cstdlib>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Who waits for the other side sleeps: processor time of both sides of the socket link, two ranks each, while the other
 // one takes its time. Run on four ranks.
-#include "link/fluid_server.h"
-#include "link/socket_peer.h"
+#include "link/socket/fluid_server.h"
+#include "link/socket/socket_peer.h"
 
 #include <gtest/gtest.h>
 #include <mpi.h>

@@ -3,7 +3,7 @@
 // One valid message of each kind, and a reader that treats any bytes as both sides do.
 #pragma once
 
-#include "link/wire.h"
+#include "link/socket/wire.h"
 
 #include <algorithm>
 #include <cstring>

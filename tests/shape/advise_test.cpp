@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The advice on levels of detail: the cheapest level that the data support, how sure they are, and what is said without
 // data.
-#include "shape/tool/advise.h"
+#include "tools/advise.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -3,7 +3,7 @@
 // Starts MPI around GoogleTest for programs that run LIGGGHTS, and implements LiggghtsSession.
 #include "support/liggghts_session.h"
 
-#include "host/style_registry.h"
+#include "styles/entry/style_registry.h"
 
 #include "comm.h"
 

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One effect of the fluid on the particles: a loop over local atoms around one closure. Those that are off do not
+// exist.
+#pragma once
+
+#include "closures/numbers.h"
+#include "closures/rheology.h"
+#include "link/flow_quantities.h"
+
+#include <memory>
+#include <vector>
+
+namespace eccentra::fluid {
+
+struct ShapeFactors;
+
+/// The shapes of a scene as effects see them. A "kind" numbers all particles that share a shape.
+class ShapeCatalogue {
+ public:
+  virtual ~ShapeCatalogue() = default;
+  virtual int kinds() const = 0;
+  virtual ShapeFactors factors(int kind) const = 0;
+  /// Smallest principal moment of inertia over m R_eq^2; 0.4 for a sphere.
+  virtual double inertia_factor(int kind) const = 0;
+  /// phi_perp of local atom i for a flow along `direction` (any length, world frame); 1 for a plain sphere.
+  virtual double crosswise_sphericity(int i, const double* direction) const = 0;
+};
+
+/// The particles of one rank at one kick of the integrator, as plain arrays; rows are local atoms.
+struct Kick {
+  int count = 0;
+  double interval = 0.0; ///< time over which the forces of this kick act [s]
+  double** velocity = nullptr;
+  double** force = nullptr; ///< all other forces when an effect starts; each effect adds its own
+  double** spin = nullptr;
+  double** torque = nullptr;
+  const double* mass = nullptr;
+  const double* radius = nullptr; ///< of the sphere of equal volume [m]
+  const int* kind = nullptr;      ///< see ShapeCatalogue
+  const int* mask = nullptr;
+  int group = 0;      ///< bit of the atoms that feel the fluid
+  int integrated = 0; ///< bits of the atoms that a fix integrates
+  int frozen = 0;     ///< bits of the atoms that are held: they load the fluid, and receive no force
+  double gravity[3] = {0.0, 0.0, 0.0};
+  FluidSamples samples;
+  double (*impulse)[3] = nullptr;
+  double* drag_coefficient = nullptr;
+  double (*last)[4] = nullptr; ///< drag and lifts of this kick [N], and the linearised drag [kg/s]
+
+  /// interval/m: how far a force moves the velocity of atom i; 0 if nothing can move it.
+  double compliance(int i) const { return (mask[i] & integrated) && !(mask[i] & frozen) ? interval / mass[i] : 0.0; }
+  /// Adds a force that the fluid receives with opposite sign (drag and lifts: S_f of eq 2).
+  void exchange(int i, const double* f, double coefficient) const {
+    for (int k = 0; k < 3; ++k) {
+      impulse[i][k] += f[k] * interval;
+      last[i][k] += f[k];
+    }
+    drag_coefficient[i] += coefficient * interval;
+    last[i][3] += coefficient;
+  }
+};
+
+/// Where a closure was measured: a dimensionless number of the particle and its range.
+struct Validity {
+  Number number;
+  double low, high;
+};
+
+class Effect {
+ public:
+  virtual ~Effect() = default;
+  virtual const char* name() const = 0;
+  /// What it is counted as: all drag laws are "drag".
+  virtual const char* slot() const { return name(); }
+  /// Quantities of the fluid that the closure reads.
+  virtual unsigned needs() const = 0;
+  /// Prepares what depends on shapes only; called at set-up.
+  virtual void prepare(const ShapeCatalogue&) {}
+  virtual void apply(const Kick& kick) = 0;
+  /// True if it acts on spins (Kick::torque), false if on velocities (Kick::force).
+  virtual bool is_torque() const { return false; }
+  virtual std::vector<Validity> validity() const { return {}; }
+  /// Slot of an effect that must act wherever this one does, or null.
+  virtual const char* requires_slot() const { return nullptr; }
+
+  /// Sum over this rank's particles of the force (or torque) of the last kick, world frame.
+  const double* total() const { return total_; }
+
+ protected:
+  double total_[3] = {0.0, 0.0, 0.0};
+};
+
+using EffectList = std::vector<std::unique_ptr<Effect>>;
+
+} // namespace eccentra::fluid

@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Implements the screen of effects.
+#include "closures/effect_screen.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <numeric>
+
+namespace eccentra::fluid {
+
+namespace {
+
+constexpr double kQuantile = 0.95;
+constexpr int kSamples = 64;       ///< of one measurement
+constexpr double kEndless = 1e100; ///< more than the histograms tell apart
+
+bool is_drag(const Effect& effect) {
+  return !std::strcmp(effect.slot(), "drag");
+}
+
+/// Rows of a LIGGGHTS array, one after the other.
+void copy_rows(double** rows, int count, std::vector<double>& out) {
+  out.resize(3 * std::size_t(count));
+  for (int i = 0; i < count; ++i)
+    std::copy_n(rows[i], 3, &out[3 * std::size_t(i)]);
+}
+
+double change_of_row(const double* now, const double* before) {
+  const double change[3] = {now[0] - before[0], now[1] - before[1], now[2] - before[2]};
+  return norm(change);
+}
+
+/// a/b where nothing over nothing is nothing, and something over nothing is endless. No division by zero: a solver
+/// that hosts this library traps it.
+double ratio(double a, double b) {
+  if (a == 0.0)
+    return 0.0;
+  return b <= a / kEndless ? kEndless : a / b;
+}
+
+template <class... Values> void append(std::string& text, const char* format, Values... values) {
+  char line[256];
+  std::snprintf(line, sizeof(line), format, values...);
+  text += line;
+}
+
+} // namespace
+
+EffectScreen::EffectScreen(const ScreenOptions& options, const EffectList& effects)
+    : options_(options), stride_(std::max(1, options.steps / kSamples)) {
+  measures_.resize(effects.size());
+  numbers_.resize(kNumbers);
+}
+
+void EffectScreen::clear() {
+  for (LogHistogram* histogram : histograms())
+    *histogram = LogHistogram();
+}
+
+std::vector<LogHistogram*> EffectScreen::histograms() {
+  std::vector<LogHistogram*> all;
+  for (Measure& m : measures_)
+    all.insert(all.end(), {&m.to_weight, &m.to_drag, &m.to_reference});
+  for (LogHistogram& number : numbers_)
+    all.push_back(&number);
+  return all;
+}
+
+void EffectScreen::apply(const Kick& kick, const EffectList& effects, const Rheology& fluid) {
+  const std::size_t count = kick.count;
+  magnitude_.assign(effects.size() * count, 0.0);
+  torque_peers_.resize(count);
+  for (int i = 0; i < kick.count; ++i)
+    torque_peers_[i] = norm(kick.torque[i]);
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    copy_rows(kick.force, kick.count, before_force_);
+    copy_rows(kick.torque, kick.count, before_torque_);
+    effects[e]->apply(kick);
+    double** const rows = effects[e]->is_torque() ? kick.torque : kick.force;
+    const std::vector<double>& before = effects[e]->is_torque() ? before_torque_ : before_force_;
+    for (std::size_t i = 0; i < count; ++i)
+      magnitude_[e * count + i] = change_of_row(rows[i], &before[3 * i]);
+  }
+  const auto drag = std::find_if(effects.begin(), effects.end(), [](const auto& effect) { return is_drag(*effect); });
+  const double g = norm(kick.gravity);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(kick.mask[i] & kick.group) || (kick.mask[i] & kick.frozen))
+      continue;
+    const double weight = std::abs(kick.mass[i] - fluid.density * sphere_volume(kick.radius[i])) * g;
+    const double resisted = drag == effects.end() ? 0.0 : magnitude_[(drag - effects.begin()) * count + i];
+    for (std::size_t e = 0; e < effects.size(); ++e) {
+      const double size = magnitude_[e * count + i];
+      Measure& m = measures_[e];
+      if (effects[e]->is_torque()) {
+        m.to_weight.add(ratio(size, weight * kick.radius[i]));
+        m.to_drag.add(ratio(size, resisted * kick.radius[i]));
+        m.to_reference.add(ratio(size, torque_peers_[i]));
+      } else {
+        m.to_weight.add(ratio(size, weight));
+        m.to_drag.add(ratio(size, resisted));
+        m.to_reference.add(ratio(size, std::max(weight, resisted)));
+      }
+    }
+    const auto numbers = particle_numbers(kick, static_cast<int>(i), fluid);
+    for (int n = 0; n < kNumbers; ++n)
+      numbers_[n].add(numbers[n]);
+  }
+}
+
+bool EffectScreen::step() {
+  ++done_;
+  if (measuring_)
+    return done_ >= options_.steps;
+  return options_.recheck > 0 && done_ >= options_.recheck;
+}
+
+void EffectScreen::start() {
+  clear();
+  measuring_ = true;
+  done_ = 0;
+}
+
+std::vector<bool> EffectScreen::decide(MPI_Comm ranks, const EffectList& effects) {
+  for (LogHistogram* histogram : histograms())
+    histogram->merge(ranks);
+  std::vector<std::size_t> order(measures_.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto size = [this](std::size_t e) { return measures_[e].to_reference.quantile(kQuantile); };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return size(a) < size(b); });
+  std::vector<bool> keep(measures_.size(), true);
+  double dropped = 0.0;
+  for (const std::size_t e : order) {
+    dropped += size(e);
+    // No particle was there to judge by: keep.
+    if (dropped > options_.tolerance || measures_[e].to_reference.count() == 0)
+      break;
+    keep[e] = false;
+  }
+  for (std::size_t e = 0; e < effects.size(); ++e)
+    for (std::size_t other = 0; keep[e] && effects[e]->requires_slot() && other < effects.size(); ++other)
+      if (!std::strcmp(effects[other]->slot(), effects[e]->requires_slot()))
+        keep[other] = true;
+  measuring_ = false;
+  done_ = 0;
+  return keep;
+}
+
+std::string EffectScreen::table(const EffectList& effects, const std::vector<bool>& keep,
+                                const std::vector<double>& nanoseconds) const {
+  std::string text;
+  append(text, "screen: %d steps, %lld observations, tolerance %g\n", options_.steps,
+         static_cast<long long>(numbers_[0].count()), options_.tolerance);
+  text += "                      of submerged weight         of drag                     decides     cost\n"
+          "  effect              mean     95 %     largest   mean     95 %     largest   95 %        ns/particle\n";
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    const Measure& m = measures_[e];
+    append(text, "  %-18s  %-8.2e %-8.2e %-8.2e  %-8.2e %-8.2e %-8.2e  %-8.2e    %-8.1f  %s\n", effects[e]->name(),
+           m.to_weight.mean(), m.to_weight.quantile(kQuantile), m.to_weight.largest(), m.to_drag.mean(),
+           m.to_drag.quantile(kQuantile), m.to_drag.largest(), m.to_reference.quantile(kQuantile), nanoseconds[e],
+           keep[e] ? "stays on" : "switched off");
+  }
+  double all = 0.0, kept = 0.0;
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    all += nanoseconds[e];
+    kept += keep[e] ? nanoseconds[e] : 0.0;
+  }
+  append(text, "  what stays on costs %.1f of %.1f ns per particle and step\n", kept, all);
+  text +=
+      "  (torques: of weight or drag times R; what decides is the ratio to the larger of weight and drag, for a torque"
+      " to all other torques)\n"
+      "  number              mean     95 %     largest   held by\n";
+  for (int n = 0; n < kNumbers; ++n) {
+    append(text, "  %-18s  %-8.2e %-8.2e %-8.2e ", kNumberNames[n], numbers_[n].mean(), numbers_[n].quantile(kQuantile),
+           numbers_[n].largest());
+    for (const auto& effect : effects)
+      for (const Validity& validity : effect->validity())
+        if (validity.number == n)
+          append(text, " %s: %g to %g%s;", effect->name(), validity.low, validity.high,
+                 numbers_[n].largest() > validity.high ? " (EXCEEDED)" : "");
+    text += "\n";
+  }
+  return text;
+}
+
+std::vector<double> EffectScreen::save(MPI_Comm ranks) const {
+  std::vector<double> state = {double(measuring_), double(done_), double(measures_.size())};
+  EffectScreen merged = *this;
+  for (LogHistogram* histogram : merged.histograms()) {
+    histogram->merge(ranks);
+    state.resize(state.size() + LogHistogram::state_size());
+    histogram->save(&state[state.size() - LogHistogram::state_size()]);
+  }
+  return state;
+}
+
+std::size_t EffectScreen::load(const double* state, bool with_sums) {
+  measuring_ = state[0] != 0.0;
+  done_ = static_cast<long>(state[1]);
+  std::size_t read = 3;
+  if (static_cast<std::size_t>(state[2]) != measures_.size())
+    return 0;
+  for (LogHistogram* histogram : histograms()) {
+    if (with_sums)
+      histogram->load(state + read);
+    read += LogHistogram::state_size();
+  }
+  return read;
+}
+
+} // namespace eccentra::fluid

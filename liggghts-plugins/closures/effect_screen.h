@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Measures what each effect does in a scene and says which of them are worth keeping.
+#pragma once
+
+#include "closures/effect.h"
+#include "closures/log_histogram.h"
+#include "closures/particle_numbers.h"
+#include "closures/screen_options.h"
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+namespace eccentra::fluid {
+
+/// During a measurement every effect is on. Forces are compared with the larger of submerged weight and drag of the
+/// same particle; the rotational drag with the sum of all other torques on it. The effects with the smallest 95 %
+/// values are dropped as long as what is dropped stays, added up, below the tolerance; what another needs stays with
+/// it.
+class EffectScreen {
+ public:
+  EffectScreen(const ScreenOptions& options, const EffectList& effects);
+
+  const ScreenOptions& options() const { return options_; }
+  /// True while measuring (every effect is on).
+  bool measuring() const { return measuring_; }
+  bool sample_now() const { return measuring_ && done_ % stride_ == 0; }
+  /// Applies all effects like a plain kick, and keeps what each of them did.
+  void apply(const Kick& kick, const EffectList& effects, const Rheology& fluid);
+  /// Counts a step; true when a measurement has just ended or is due to begin: ask measuring().
+  bool step();
+  /// Begins a measurement.
+  void start();
+  /// Ends a measurement: one flag per effect, true keeps it. The same on all ranks.
+  std::vector<bool> decide(MPI_Comm ranks, const EffectList& effects);
+  /// The table of the last measurement; nanoseconds per particle and step of each effect as measured elsewhere.
+  std::string table(const EffectList& effects, const std::vector<bool>& keep,
+                    const std::vector<double>& nanoseconds) const;
+
+  /// State for a restart file: sums over ranks, so call on all ranks; load with the sums on one rank only.
+  std::vector<double> save(MPI_Comm ranks) const;
+  /// Returns the number of values read.
+  std::size_t load(const double* state, bool with_sums);
+
+ private:
+  /// What one effect was seen to do.
+  struct Measure {
+    LogHistogram to_weight, to_drag, to_reference;
+  };
+  std::vector<LogHistogram*> histograms();
+  void clear();
+
+  ScreenOptions options_;
+  int stride_;
+  bool measuring_ = true;
+  long done_ = 0; ///< steps since the measurement or the pause began
+  std::vector<Measure> measures_;
+  std::vector<LogHistogram> numbers_;
+  std::vector<double> before_force_, before_torque_, magnitude_, torque_peers_;
+};
+
+} // namespace eccentra::fluid

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The words of `fix fluid/force`, read into values and turned into the list of effects that they ask for.
+#pragma once
+
+#include "closures/effect.h"
+#include "closures/rheology.h"
+#include "closures/screen_options.h"
+
+#include <string>
+#include <vector>
+
+namespace eccentra::fluid {
+
+struct FluidOptions {
+  Rheology rheology;
+  std::string drag = "none";
+  bool void_reynolds = false; ///< alpha Re in place of Re in a single-particle drag law
+  bool shear_lift = false;
+  bool rotational_lift = false;
+  bool drag_torque = false;
+  bool buoyancy = true;
+  bool pressure_gradient = false;
+  bool viscous_stress = false;
+  ScreenOptions screen;
+  std::vector<double> sphericity = {1.0}; ///< of plain spheres: one value, or one per atom type
+};
+
+/// Reads the words after `fix ID group fluid/force`. Throws std::invalid_argument with one sentence that names the
+/// word, its value and the remedy.
+FluidOptions read_fluid_options(const std::vector<std::string>& words, int atom_types);
+
+/// The effects that are on, in the order in which they act: volume forces, lifts, drag (implicit against all others).
+EffectList make_effects(const FluidOptions& options);
+
+/// "chien|..." for messages.
+std::string drag_law_names();
+
+/// One finite number; throws std::invalid_argument that names `what` and the value.
+double read_number(const std::string& word, const std::string& what);
+
+} // namespace eccentra::fluid

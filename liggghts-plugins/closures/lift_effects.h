@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The loops around the two lifts.
+#pragma once
+
+#include "closures/effect.h"
+#include "closures/lift_laws.h"
+
+#include <algorithm>
+
+namespace eccentra::fluid {
+
+/// Calls force(i, viscosity, d, slip, out) for every particle that slips, and adds what comes out.
+class Lift : public Effect {
+ public:
+  explicit Lift(const Rheology& fluid) : fluid_(fluid) {}
+  unsigned needs() const override { return kVelocity | kVorticity; }
+
+ protected:
+  template <class Force> void for_each(const Kick& kick, Force&& force) {
+    double sum[3] = {0.0, 0.0, 0.0};
+    for (int i = 0; i < kick.count; ++i) {
+      if (!(kick.mask[i] & kick.group))
+        continue;
+      double slip[3], f[3];
+      for (int k = 0; k < 3; ++k)
+        slip[k] = kick.samples.velocity[i][k] - kick.velocity[i][k];
+      const double speed = norm(slip);
+      if (!(speed > 0.0))
+        continue;
+      const double d = 2.0 * kick.radius[i];
+      // The viscosity behind Re_HB, so that all Reynolds numbers of a particle speak of one fluid.
+      const double viscosity = fluid_.newtonian() ? fluid_.consistency : particle_viscosity(fluid_, speed, d);
+      force(i, viscosity, d, slip, f);
+      kick.exchange(i, f, 0.0);
+      const double held = kick.mask[i] & kick.frozen ? 0.0 : 1.0;
+      for (int k = 0; k < 3; ++k) {
+        kick.force[i][k] += held * f[k];
+        sum[k] += f[k];
+      }
+    }
+    std::copy(sum, sum + 3, total_);
+  }
+  Rheology fluid_;
+};
+
+class ShearLift : public Lift {
+ public:
+  using Lift::Lift;
+  const char* name() const override { return "shear_lift"; }
+  std::vector<Validity> validity() const override {
+    return {{kReynolds, 0.0, Mei::kHighestRe}, {kShearParameter, Mei::kLowestBeta, Mei::kHighestBeta}};
+  }
+  void apply(const Kick& kick) override {
+    for_each(kick, [&](int i, double viscosity, double d, const double* slip, double* f) {
+      shear_lift_force(fluid_.density, viscosity, d, slip, kick.samples.vorticity[i], f);
+    });
+  }
+};
+
+class RotationalLift : public Lift {
+ public:
+  using Lift::Lift;
+  const char* name() const override { return "rotational_lift"; }
+  /// A spin that nothing damps would make this lift grow.
+  const char* requires_slot() const override { return "drag_torque"; }
+  std::vector<Validity> validity() const override {
+    return {{kReynolds, OesterleBuiDinh::kLowestRe, OesterleBuiDinh::kHighestRe},
+            {kSpinParameter, OesterleBuiDinh::kLowestSpin, OesterleBuiDinh::kHighestSpin}};
+  }
+  void apply(const Kick& kick) override {
+    for_each(kick, [&](int i, double viscosity, double d, const double* slip, double* f) {
+      double spin[3];
+      for (int k = 0; k < 3; ++k)
+        spin[k] = 0.5 * kick.samples.vorticity[i][k] - kick.spin[i][k];
+      rotational_lift_force(fluid_.density, viscosity, d, slip, spin, f);
+    });
+  }
+};
+
+} // namespace eccentra::fluid

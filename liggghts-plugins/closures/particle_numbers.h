@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The dimensionless numbers of a particle in a flow, by which closures state where they hold.
+#pragma once
+
+#include "base/vectors.h"
+#include "closures/effect.h"
+#include "closures/rheology.h"
+
+#include <array>
+#include <cmath>
+
+namespace eccentra::fluid {
+
+/// All numbers of local atom i; what needs a quantity that is not sampled, or a slip where there is none, is 0.
+inline std::array<double, kNumbers> particle_numbers(const Kick& kick, int i, const Rheology& fluid) {
+  std::array<double, kNumbers> n{};
+  const double d = 2.0 * kick.radius[i];
+  n[kDensityRatio] = kick.mass[i] / sphere_volume(kick.radius[i]) / fluid.density;
+  double slip[3] = {0.0, 0.0, 0.0}, spin[3] = {0.0, 0.0, 0.0};
+  if (kick.samples.velocity)
+    for (int k = 0; k < 3; ++k)
+      slip[k] = kick.samples.velocity[i][k] - kick.velocity[i][k];
+  const double speed = norm(slip);
+  if (speed > 0.0) {
+    n[kReynolds] = reynolds_herschel_bulkley(fluid, speed, d);
+    n[kBingham] = bingham(fluid, speed, d);
+    n[kStokesNumber] = n[kDensityRatio] * n[kReynolds] / 9.0;
+  }
+  if (kick.samples.vorticity && (speed > 0.0 || fluid.newtonian())) {
+    for (int k = 0; k < 3; ++k)
+      spin[k] = 0.5 * kick.samples.vorticity[i][k] - kick.spin[i][k];
+    const double viscosity = fluid.newtonian() ? fluid.consistency : particle_viscosity(fluid, speed, d);
+    const double per_rate = fluid.density * d * d / viscosity;
+    n[kShearReynolds] = per_rate * norm(kick.samples.vorticity[i]);
+    n[kSpinReynolds] = per_rate * norm(spin);
+    if (n[kReynolds] > 0.0) {
+      n[kShearParameter] = 0.5 * n[kShearReynolds] / n[kReynolds];
+      n[kSpinParameter] = 0.5 * d * norm(spin) / speed;
+    }
+  }
+  return n;
+}
+
+} // namespace eccentra::fluid

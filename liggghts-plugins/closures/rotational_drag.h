@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The loop around the torque of the fluid on spinning particles, implicit in their own spin.
+#pragma once
+
+#include "base/vectors.h"
+#include "closures/effect.h"
+#include "closures/implicit_step.h"
+#include "closures/rotation_laws.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace eccentra::fluid {
+
+template <class Stress> class RotationalDrag : public Effect {
+ public:
+  explicit RotationalDrag(const Rheology& fluid)
+      : stress_(fluid), density_(fluid.density), newtonian_(fluid.newtonian()) {}
+
+  const char* name() const override { return "drag_torque"; }
+  unsigned needs() const override { return newtonian_ ? kVorticity : kVorticity | kVelocity; }
+  void prepare(const ShapeCatalogue& shapes) override {
+    gyration_.clear();
+    for (int kind = 0; kind < shapes.kinds(); ++kind)
+      gyration_.push_back(shapes.inertia_factor(kind));
+  }
+
+  bool is_torque() const override { return true; }
+  std::vector<Validity> validity() const override { return {{kSpinReynolds, 0.0, Dennis::kHighestRe}}; }
+  void apply(const Kick& kick) override {
+    double sum[3] = {0.0, 0.0, 0.0};
+    for (int i = 0; i < kick.count; ++i) {
+      if (!(kick.mask[i] & kick.group))
+        continue;
+      const double d = 2.0 * kick.radius[i];
+      const double compliance = kick.compliance(i) / (gyration_[kick.kind[i]] * kick.radius[i] * kick.radius[i]);
+      double slip_rate = 0.0;
+      if (!newtonian_) {
+        double slip[3];
+        for (int k = 0; k < 3; ++k)
+          slip[k] = kick.samples.velocity[i][k] - kick.velocity[i][k];
+        slip_rate = norm(slip) / d;
+      }
+      double spin[3], free[3];
+      for (int k = 0; k < 3; ++k) {
+        spin[k] = 0.5 * kick.samples.vorticity[i][k] - kick.spin[i][k];
+        free[k] = spin[k] - compliance * kick.torque[i][k];
+      }
+      const double free_spin = norm(free);
+      if (!(free_spin > 0.0))
+        continue;
+      const Resistance<SpinStress<Stress>, Dennis> drag{
+          {stress_, slip_rate}, Dennis(), Dennis::kAreaPart * d * d * d, 1.0, density_ * d * d};
+      const ImplicitSlip step = implicit_slip(drag, free_spin, compliance, norm(spin));
+      const double coefficient = step.resistance / free_spin;
+      const bool held = kick.mask[i] & kick.frozen;
+      for (int k = 0; k < 3; ++k) {
+        const double t = coefficient * free[k];
+        sum[k] += t;
+        if (!held)
+          kick.torque[i][k] = step.speed == 0.0 ? spin[k] / compliance : kick.torque[i][k] + t;
+      }
+    }
+    std::copy(sum, sum + 3, total_);
+  }
+
+ private:
+  Stress stress_;
+  double density_;
+  bool newtonian_;
+  std::vector<double> gyration_; ///< smallest moment of inertia over m R_eq^2, by kind
+};
+
+} // namespace eccentra::fluid

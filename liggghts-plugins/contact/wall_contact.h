@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One contact of a (sub-)sphere with a wall, whatever the wall is made of.
+#pragma once
+
+#include "contact/wall_history.h"
+
+#include <Eigen/Core>
+
+namespace eccentra::cluster {
+
+/// World frame, SI. Vectors that start at the body's centre are free of periodic images.
+struct WallTouch {
+  int atom;                  ///< local index
+  WallHistoryEntry* history; ///< of this contact
+  WallContactKey key;
+  Eigen::Vector3d normal;        ///< unit, from the wall to the sphere
+  Eigen::Vector3d lever;         ///< from the body's centre to the contact point (half the overlap deep)
+  Eigen::Vector3d to_wall;       ///< from the body's centre to the wall's surface
+  Eigen::Vector3d wall_velocity; ///< of the wall's material there
+  Eigen::Vector3d wall_omega;    ///< angular velocity of the wall
+  double overlap;                ///< > 0
+  double radius;                 ///< of the sphere
+  double share;                  ///< of stiffness and damping
+  int wall_type;                 ///< material
+  int triangle;                  ///< local index in the mesh of key.mesh(); -1 for primitive walls
+};
+
+} // namespace eccentra::cluster

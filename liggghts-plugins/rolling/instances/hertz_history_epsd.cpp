@@ -1,8 +1,0 @@
-// SPDX-FileCopyrightText: Eccentra contributors
-// SPDX-License-Identifier: GPL-3.0-or-later
-// Compiles model hertz tangential history rolling_friction epsd, which LIGGGHTS runs through slow dispatch.
-#include "rolling/register_contact_model.h"
-
-namespace {
-const eccentra::rolling::RegisterHertzHistory<LIGGGHTS::ContactModels::ROLLING_EPSD> registration("epsd");
-} // namespace

@@ -1,8 +1,0 @@
-// SPDX-FileCopyrightText: Eccentra contributors
-// SPDX-License-Identifier: GPL-3.0-or-later
-// Compiles model hertz tangential history rolling_friction epsd3, which LIGGGHTS runs through slow dispatch.
-#include "rolling/register_contact_model.h"
-
-namespace {
-const eccentra::rolling::RegisterHertzHistory<LIGGGHTS::ContactModels::ROLLING_EPSD3> registration("epsd3");
-} // namespace

@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// dump cluster/vtk: gathers bodies on the first rank, which draws their sub-spheres from the table of shapes.
+#include "styles/bodies/dump_cluster_vtk.h"
+
+#include "styles/bodies/bodies.h"
+#include "styles/entry/style_registry.h"
+
+#include "atom.h"
+#include "error.h"
+#include "update.h"
+
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <numeric>
+
+namespace eccentra::cluster {
+
+using namespace LAMMPS_NS;
+
+namespace {
+
+const host::RegisterDump<DumpClusterVtk> record("cluster/vtk", "sub-spheres of clusters as VTK files for ParaView");
+
+/// One body on its way to the first rank, as doubles.
+struct Body {
+  double tag, type, shape;
+  double x[3], v[3], omega[3];
+  double orientation[4]; ///< w x y z
+  double radius;         ///< of the bounding sphere
+};
+constexpr int kDoubles = sizeof(Body) / sizeof(double);
+
+/// The arrays of a VTK file, filled row by row.
+class Rows {
+ public:
+  Rows() {
+    radius_->SetName("radius");
+    for (auto* array : {body_.Get(), type_.Get(), shape_.Get()})
+      data_->GetPointData()->AddArray(array);
+    body_->SetName("body");
+    type_->SetName("type");
+    shape_->SetName("shape");
+    velocity_->SetName("velocity");
+    velocity_->SetNumberOfComponents(3);
+    omega_->SetName("omega");
+    omega_->SetNumberOfComponents(3);
+    orientation_->SetName("orientation");
+    orientation_->SetNumberOfComponents(4);
+    for (auto* array : {radius_.Get(), velocity_.Get(), omega_.Get(), orientation_.Get()})
+      data_->GetPointData()->AddArray(array);
+  }
+
+  void add(const Body& body, const Eigen::Vector3d& centre, double radius) {
+    const vtkIdType point = points_->InsertNextPoint(centre.x(), centre.y(), centre.z());
+    vertices_->InsertNextCell(1, &point);
+    radius_->InsertNextValue(static_cast<float>(radius));
+    body_->InsertNextValue(static_cast<int>(body.tag));
+    type_->InsertNextValue(static_cast<int>(body.type));
+    shape_->InsertNextValue(static_cast<int>(body.shape));
+    velocity_->InsertNextTuple(body.v);
+    omega_->InsertNextTuple(body.omega);
+    orientation_->InsertNextTuple(body.orientation);
+  }
+
+  /// False where the file cannot be written. It appears whole or not at all.
+  bool write(const std::string& name) {
+    data_->SetPoints(points_);
+    data_->SetVerts(vertices_);
+    data_->GetPointData()->SetActiveScalars("radius");
+    const std::string unfinished = name + ".part";
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetFileName(unfinished.c_str());
+    writer->SetInputData(data_);
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+    writer->SetCompressorTypeToNone(); // compression would cost more than the rest of the dump
+    return writer->Write() == 1 && std::rename(unfinished.c_str(), name.c_str()) == 0;
+  }
+
+ private:
+  vtkNew<vtkPolyData> data_;
+  vtkNew<vtkPoints> points_;
+  vtkNew<vtkCellArray> vertices_;
+  vtkNew<vtkFloatArray> radius_, velocity_, omega_, orientation_;
+  vtkNew<vtkIntArray> body_, type_, shape_;
+};
+
+} // namespace
+
+DumpClusterVtk::DumpClusterVtk(LAMMPS* lmp, int narg, char** arg) : Dump(lmp, narg, arg) {
+  const std::string where = "dump " + std::string(arg[0]) + " cluster/vtk: ";
+  const std::string name = filename;
+  const std::string suffix = ".vtp";
+  if (name.size() < suffix.size() || name.compare(name.size() - suffix.size(), suffix.size(), suffix) != 0)
+    error->all(FLERR, (where + "file name '" + name + "' must end in .vtp, which tells ParaView what it is").c_str());
+  if (!multifile || multiproc)
+    error->all(FLERR, (where + "file name '" + name +
+                       "' must hold one '*' for the time step and no '%': all ranks write "
+                       "one file per step")
+                          .c_str());
+  for (int at = 5; at < narg; at += 2) {
+    const std::string word = arg[at];
+    const std::string value = at + 1 < narg ? arg[at + 1] : "";
+    if (word != "rows" || (value != "spheres" && value != "bodies"))
+      error->all(FLERR, (where + "'" + word + " " + value + "' is unknown: write rows spheres or rows bodies").c_str());
+    bodies_only_ = value == "bodies";
+  }
+}
+
+std::string DumpClusterVtk::file_name() const {
+  std::string name = filename;
+  std::string step = std::to_string(update->ntimestep);
+  if (static_cast<int>(step.size()) < padflag)
+    step.insert(0, padflag - step.size(), '0');
+  return name.replace(name.find('*'), 1, step);
+}
+
+std::vector<double> DumpClusterVtk::gather() const {
+  FixBodies* bodies = FixBodies::find(lmp);
+  std::vector<double> mine;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if (!(atom->mask[i] & groupbit))
+      continue;
+    Body body{};
+    body.tag = atom->tag[i];
+    body.type = atom->type[i];
+    body.shape = bodies ? bodies->shape_id(i) : FixBodies::plain_sphere;
+    std::copy(atom->x[i], atom->x[i] + 3, body.x);
+    std::copy(atom->v[i], atom->v[i] + 3, body.v);
+    if (atom->omega_flag)
+      std::copy(atom->omega[i], atom->omega[i] + 3, body.omega);
+    body.orientation[0] = 1.;
+    if (bodies)
+      std::copy(bodies->quaternion(i), bodies->quaternion(i) + 4, body.orientation);
+    body.radius = atom->radius[i];
+    double packed[kDoubles];
+    std::memcpy(packed, &body, sizeof body);
+    mine.insert(mine.end(), packed, packed + kDoubles);
+  }
+  const int count = static_cast<int>(mine.size());
+  std::vector<int> counts(nprocs), offsets(nprocs);
+  MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, world);
+  std::partial_sum(counts.begin(), counts.end() - 1, offsets.begin() + 1);
+  std::vector<double> all(me == 0 ? offsets.back() + counts.back() : 0);
+  MPI_Gatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), offsets.data(), MPI_DOUBLE, 0, world);
+  return all;
+}
+
+void DumpClusterVtk::write_file(const std::vector<double>& rows) const {
+  std::vector<Body> sorted(rows.size() / kDoubles);
+  if (!sorted.empty())
+    std::memcpy(static_cast<void*>(sorted.data()), rows.data(), rows.size() * sizeof(double));
+  std::sort(sorted.begin(), sorted.end(), [](const Body& a, const Body& b) { return a.tag < b.tag; });
+  FixBodies* bodies = FixBodies::find(lmp);
+  Rows out;
+  for (const Body& body : sorted) {
+    const Eigen::Vector3d x(body.x[0], body.x[1], body.x[2]);
+    const int shape = static_cast<int>(body.shape);
+    if (bodies_only_ || shape == FixBodies::plain_sphere) {
+      out.add(body, x, body.radius);
+      continue;
+    }
+    const Eigen::Quaterniond q(body.orientation[0], body.orientation[1], body.orientation[2], body.orientation[3]);
+    for (const shape::Sphere& sphere : bodies->shapes()[shape].spheres())
+      out.add(body, x + q * sphere.centre, sphere.radius);
+  }
+  const std::string name = file_name();
+  if (!out.write(name))
+    error->one(FLERR, ("dump " + std::string(id) + " cluster/vtk: file '" + name +
+                       "' cannot be written: does its folder exist, and is there room on the disk?")
+                          .c_str());
+}
+
+void DumpClusterVtk::write() {
+  const std::vector<double> rows = gather();
+  if (me == 0)
+    write_file(rows);
+}
+
+} // namespace eccentra::cluster

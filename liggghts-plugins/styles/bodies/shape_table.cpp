@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The table of shapes of a scene.
+#include "styles/bodies/bodies.h"
+
+namespace eccentra::cluster {
+namespace {
+
+bool same_shape(const shape::ClusterShape& a, const shape::ClusterShape& b) {
+  // A shape that comes back through a restart file is the same to the last digits.
+  constexpr double tolerance = 1e-12;
+  if (a.name() != b.name() || a.spheres().size() != b.spheres().size())
+    return false;
+  const double scale = tolerance * a.bounding_radius();
+  for (std::size_t k = 0; k < a.spheres().size(); ++k)
+    if ((a.spheres()[k].centre - b.spheres()[k].centre).norm() > scale ||
+        std::abs(a.spheres()[k].radius - b.spheres()[k].radius) > scale)
+      return false;
+  return true;
+}
+
+} // namespace
+
+ShapeTable::ShapeTable() {
+  surfaces_.push_back(std::make_unique<SurfaceSpheres>());
+}
+
+int ShapeTable::add(shape::ClusterShape shape) {
+  for (int id = 0; id < size(); ++id)
+    if (same_shape(*shapes_[id], shape))
+      return id;
+  surfaces_.push_back(std::make_unique<SurfaceSpheres>(shape));
+  rotations_.emplace_back(shape.inertia_per_mass());
+  shapes_.push_back(std::make_unique<shape::ClusterShape>(std::move(shape)));
+  return size() - 1;
+}
+
+} // namespace eccentra::cluster

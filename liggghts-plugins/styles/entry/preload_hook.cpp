@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// LIGGGHTS has no plug-in loader. Its library is not linked -Bsymbolic, so a definition of ours comes first, whether we
+// were preloaded into the stock binary or linked into a launcher: before a script is read, we enter.
+#include "styles/entry/style_registry.h"
+
+#include <mpi.h>
+
+#include "dump.h"
+#include "error.h"
+#include "input.h"
+#include "lammps.h"
+#include "output.h"
+
+#include <dlfcn.h>
+
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace {
+
+/// The definition that ours stands in front of.
+template <class Function> Function next_definition(const char* mangled_name) {
+  return reinterpret_cast<Function>(dlsym(RTLD_NEXT, mangled_name));
+}
+
+/// LIGGGHTS prints its error and calls MPI_Abort, which throws away what a pipe or file has not yet been given: a job's
+/// log would end without the reason. By whole lines, nothing is lost.
+struct LineBufferedOutput {
+  LineBufferedOutput() { std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ); }
+};
+const LineBufferedOutput line_buffered_output;
+
+} // namespace
+
+namespace LAMMPS_NS {
+
+void Input::file() {
+  eccentra::host::enter(lmp);
+  static const auto stock = next_definition<void (*)(Input*)>("_ZN9LAMMPS_NS5Input4fileEv");
+  stock(this);
+}
+
+void Input::file(const char* name) {
+  eccentra::host::enter(lmp);
+  static const auto stock = next_definition<void (*)(Input*, const char*)>("_ZN9LAMMPS_NS5Input4fileEPKc");
+  stock(this, name);
+}
+
+char* Input::one(const char* line) {
+  eccentra::host::enter(lmp);
+  static const auto stock = next_definition<char* (*)(Input*, const char*)>("_ZN9LAMMPS_NS5Input3oneEPKc");
+  return stock(this, line);
+}
+
+// Dump styles are a chain of comparisons, not a map: make a stock dump in our dump's place, then exchange the two.
+void Output::add_dump(int narg, char** arg) {
+  static const auto stock = next_definition<void (*)(Output*, int, char**)>("_ZN9LAMMPS_NS6Output8add_dumpEiPPc");
+  const eccentra::host::StyleRecord* ours = nullptr;
+  for (const auto& record : eccentra::host::style_records())
+    if (record.dump && narg > 2 && record.name == arg[2])
+      ours = &record;
+  if (!ours) {
+    stock(this, narg, arg);
+    return;
+  }
+  if (narg < 5)
+    error->all(FLERR, ("dump " + ours->name + " needs: dump ID group " + ours->name + " every file").c_str());
+  std::string style = "atom/vtk";
+  std::vector<char*> stock_arg(arg, arg + 5);
+  stock_arg[2] = style.data();
+  stock(this, 5, stock_arg.data());
+  // Ours first: if it refuses its words, what is in the list is still whole when LIGGGHTS takes itself down.
+  Dump* const our_dump = ours->dump(lmp, narg, arg);
+  delete dump[ndump - 1];
+  dump[ndump - 1] = our_dump;
+}
+
+} // namespace LAMMPS_NS

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Writes our records into the style maps of a LIGGGHTS instance.
+#include "styles/entry/style_registry.h"
+
+#include "styles/entry/private_access.h"
+
+#include <mpi.h>
+
+#include "error.h"
+#include "force.h"
+#include "input.h"
+#include "lammps.h"
+#include "modify.h"
+#include "universe.h"
+
+#include <cstring>
+#include <map>
+#include <string>
+
+namespace {
+
+using namespace LAMMPS_NS;
+using namespace eccentra::host;
+
+// Modify::fix_map, Modify::compute_map and Input::command_map are private and have no setter.
+struct FixMap {
+  using type = std::map<std::string, FixCreator>* Modify::*;
+};
+struct ComputeMap {
+  using type = std::map<std::string, ComputeCreator>* Modify::*;
+};
+struct CommandMap {
+  using type = std::map<std::string, CommandCreator>* Input::*;
+};
+
+} // namespace
+
+namespace eccentra::host {
+
+template struct PrivateMember<FixMap, &LAMMPS_NS::Modify::fix_map>;
+template struct PrivateMember<ComputeMap, &LAMMPS_NS::Modify::compute_map>;
+template struct PrivateMember<CommandMap, &LAMMPS_NS::Input::command_map>;
+
+std::vector<StyleRecord>& style_records() {
+  static std::vector<StyleRecord> records;
+  return records;
+}
+
+void enter(LAMMPS_NS::LAMMPS* lmp) {
+  if (std::strstr(lmp->universe->version, "LIGGGHTS-PUBLIC " ECCENTRA_LIGGGHTS_VERSION) == nullptr) {
+    const std::string text = std::string("libeccentra was built against LIGGGHTS-PUBLIC " ECCENTRA_LIGGGHTS_VERSION
+                                         " but was loaded into '") +
+                             lmp->universe->version + "': build Eccentra again with scripts/setup on this machine";
+    lmp->error->all(FLERR, text.c_str());
+  }
+  for (const StyleRecord& record : style_records()) {
+    if (record.fix)
+      (*(lmp->modify->*Published<FixMap>::pointer))[record.name] = record.fix;
+    if (record.compute)
+      (*(lmp->modify->*Published<ComputeMap>::pointer))[record.name] = record.compute;
+    if (record.command)
+      (*(lmp->input->*Published<CommandMap>::pointer))[record.name] = record.command;
+    if (record.pair)
+      (*lmp->force->pair_map)[record.name] = record.pair;
+  }
+}
+
+} // namespace eccentra::host

@@ -1,0 +1,475 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Implements fix fluid/couple.
+#include "styles/fluid/fix_fluid_couple.h"
+
+#include "link/stop_signal.h"
+#include "link/waiting.h"
+#include "styles/entry/style_registry.h"
+
+#include <mpi.h>
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_gravity.h"
+#include "lammps.h"
+#include "modify.h"
+#include "update.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+namespace eccentra::fluid {
+
+namespace {
+const host::RegisterFix<FixFluidCouple> kRecord("fluid/couple", "meets a fluid solver every N steps");
+
+constexpr int kTicketDoubles = 2;
+constexpr int kForceDoubles = 6;
+/// Entries of the vector of stock fix insert/*.
+constexpr int kInsertedNumber = 0;
+constexpr int kInsertedMass = 1;
+constexpr double kLongestWait = 1e6; ///< [s]
+
+using RowsOfThree = const double (*)[3];
+
+/// As Domain::remap, which never comes back from a position that has blown up.
+double wrapped(double x, double low, double high) {
+  if (x >= low && x < high)
+    return x;
+  const double inside = x - (high - low) * std::floor((x - low) / (high - low));
+  return inside < low || inside >= high ? low : inside;
+}
+} // namespace
+
+FixFluidCouple::FixFluidCouple(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {
+  read(std::vector<std::string>(arg + 3, arg + narg));
+  if (igroup != 0)
+    refuse("works on all particles: write 'fix " + std::string(id) + " all fluid/couple ...'");
+  nevery = 1;
+  create_attribute = 1;
+  restart_global = 1;
+  restart_peratom = 1;
+  force_reneighbor = 1;
+  next_reneighbor = -1;
+  link::catch_stop_signals("fix fluid/couple");
+  connect();
+  grow_arrays(atom->nmax);
+  atom->add_callback(0);
+  atom->add_callback(1);
+}
+
+FixFluidCouple::~FixFluidCouple() {
+  atom->delete_callback(id, 0);
+  atom->delete_callback(id, 1);
+}
+
+// The fluid side knows from here on that somebody has come, whatever the script does before its first run.
+void FixFluidCouple::connect() {
+  if (link_ != "socket")
+    return;
+  try {
+    using Rows = link::SocketPeer::Rows;
+    own_peer_ = std::make_unique<link::SocketPeer>(world, link::Address(address_, keys_), patience_,
+                                                   lanes_ ? Rows::on_lanes : Rows::over_root);
+  } catch (const link::Refusal& refusal) {
+    refuse(refusal.what());
+  }
+}
+
+void FixFluidCouple::refuse(const std::string& text) {
+  if (own_peer_)
+    own_peer_->leave(text);
+  error->all(FLERR, ("fix fluid/couple '" + std::string(id) + "': " + text).c_str());
+  std::abort(); // error->all does not return
+}
+
+void FixFluidCouple::read(const std::vector<std::string>& words) {
+  bool waits = false;
+  for (std::size_t next = 0; next < words.size();) {
+    const std::string& keyword = words[next++];
+    const auto value = [&](const char* what) -> const std::string& {
+      if (next >= words.size())
+        refuse("the word '" + keyword + "' needs " + what);
+      return words[next++];
+    };
+    if (keyword == "link") {
+      link_ = value("solver or socket ADDRESS");
+      if (link_ == "socket")
+        address_ = value("an address");
+      else if (link_ != "solver")
+        refuse("link '" + link_ + "' is unknown: use solver, or socket ADDRESS");
+    } else if (keyword == "every" || keyword == "checkpoint") {
+      const std::string what = keyword == "every" ? "DEM steps" : "meetings";
+      const std::string& text = value(("a number of " + what).c_str());
+      char* end = nullptr;
+      const long number = std::strtol(text.c_str(), &end, 10);
+      if (end == text.c_str() || *end || number < 1 || number > 1000000000L)
+        refuse(keyword + " has '" + text + "': give a whole number of " + what + " from 1 on");
+      (keyword == "every" ? interval_ : checkpoint_every_) = static_cast<int>(number);
+    } else if (keyword == "overlap" || keyword == "lanes") {
+      const std::string& text = value("yes or no");
+      if (text != "yes" && text != "no")
+        refuse(keyword + " has '" + text + "': give yes or no");
+      (keyword == "overlap" ? overlap_ : lanes_) = text == "yes";
+    } else if (keyword == "keys") {
+      keys_ = value("a folder made by eccentra-keys");
+    } else if (keyword == "timeout" || keyword == "wait") {
+      const std::string& text = value("seconds");
+      char* end = nullptr;
+      const double seconds = std::strtod(text.c_str(), &end);
+      if (end == text.c_str() || *end || !(seconds > 0) || seconds > kLongestWait)
+        refuse(keyword + " has '" + text + "': give a positive number of seconds up to 1e6");
+      (keyword == "wait" ? patience_.arrival : patience_.silence) = seconds;
+      waits = true;
+    } else {
+      refuse("unknown word '" + keyword +
+             "': known are link solver, link socket ADDRESS, every N, checkpoint M, keys FOLDER, timeout SECONDS, "
+             "wait SECONDS, overlap yes|no and lanes yes|no");
+    }
+  }
+  if (link_.empty())
+    refuse(
+        "the word 'link' is missing: add link solver (the fluid solver hosts this script) or link socket ADDRESS (it "
+        "runs apart)");
+  if ((waits || !keys_.empty() || !lanes_) && link_ != "socket")
+    refuse("keys, timeout, wait and lanes belong to link socket: drop them");
+  if (overlap_ && link_ != "socket")
+    refuse(
+        "overlap yes belongs to link socket: with link solver particles and fluid share their ranks, which take turns "
+        "whatever the order; drop it");
+  if (interval_ == 0)
+    refuse("the word 'every' is missing: add every N, the DEM steps from one meeting with the fluid to the next");
+}
+
+int FixFluidCouple::setmask() {
+  return FixConst::PRE_INITIAL_INTEGRATE | FixConst::END_OF_STEP;
+}
+
+// Tickets of all atoms are blank already; LIGGGHTS need not visit them again at the first set-up.
+void FixFluidCouple::post_create() {
+  just_created = 0;
+}
+
+void FixFluidCouple::init() {
+  forces_ = FixFluidForce::find(lmp);
+  if (!forces_)
+    refuse("meets a fluid that nothing feels: add fix fluid/force before the run");
+  forces_->announce_source(id);
+  if (resuming_)
+    forces_->carry_on();
+  bodies_ = cluster::FixBodies::find(lmp);
+  if (domain->triclinic)
+    refuse("needs a box with right angles: make the simulation box orthogonal");
+  if (link_ == "solver") {
+    peer_ = link::hosting_solver();
+    if (!peer_)
+      refuse("link solver needs a fluid solver that hosts this script: start annulusFoam in the case folder instead of "
+             "this program");
+  } else {
+    peer_ = own_peer_.get();
+  }
+}
+
+link::DemTerms FixFluidCouple::terms() const {
+  link::DemTerms terms;
+  terms.length_unit = std::strcmp(update->unit_style, "si") == 0 ? 1.0 : 0.0;
+  terms.time_step = update->dt;
+  terms.interval = interval_;
+  terms.particles = atom->natoms;
+  for (int k = 0; k < 3; ++k) {
+    terms.domain.low[k] = domain->boxlo[k];
+    terms.domain.high[k] = domain->boxhi[k];
+    terms.domain.periodic[k] = domain->periodicity[k] != 0;
+  }
+  terms.needed = forces_->needs();
+  terms.extents = bodies_ != nullptr;
+  terms.overlap = overlap_;
+  terms.fluid_density = forces_->rho_f();
+  const fluid::Rheology& law = forces_->rheology();
+  terms.rheology = {law.yield_stress, law.consistency, law.index};
+  if (resuming_)
+    terms.resumes = mark_;
+  for (int i = 0; i < modify->nfix; ++i)
+    if (std::strcmp(modify->fix[i]->style, "gravity") == 0)
+      static_cast<FixGravity*>(modify->fix[i])->get_gravity(terms.gravity);
+  return terms;
+}
+
+// Every run of a script states the terms anew: time step and effects may have changed since the last one.
+void FixFluidCouple::setup(int) {
+  const bigint steps = update->laststep - update->firststep;
+  if (steps % interval_ != 0)
+    refuse("a run of " + std::to_string(steps) + " steps is not a whole number of intervals of " +
+           std::to_string(interval_) + ": change the run's length or every");
+  if (resuming_ && update->ntimestep != mark_.step)
+    refuse("the checkpoint is one of step " + std::to_string(mark_.step) + " but this run begins at step " +
+           std::to_string(update->ntimestep) + ": remove what changes the step between read_restart and the run");
+  if (!agreed_ && !resuming_)
+    tickets_.assign(tickets_.size(), link::Ticket{});
+  pack();
+  try {
+    const std::uint64_t layout = peer_->agree(terms()).layout;
+    if (layout != layout_)
+      tickets_.assign(tickets_.size(), link::Ticket{});
+    layout_ = layout;
+  } catch (const link::Refusal& refusal) {
+    refuse(refusal.what());
+  }
+  if (!agreed_)
+    tell_of_lanes();
+  agreed_ = true;
+  if (!met_) {
+    forces_->reset_reaction();
+    meet(0.0);
+    met_ = true;
+  }
+  countdown_ = interval_;
+  plan_checkpoint();
+  leave_fluid();
+}
+
+void FixFluidCouple::tell_of_lanes() const {
+  if (comm->me != 0 || !own_peer_ || own_peer_->why_over_root().empty())
+    return;
+  for (FILE* out : {screen, logfile})
+    if (out)
+      std::fprintf(out, "fix fluid/couple '%s': the particles of all ranks travel over rank 0: %s\n", id,
+                   own_peer_->why_over_root().c_str());
+}
+
+void FixFluidCouple::leave_fluid() {
+  left_fluid_at_ = MPI_Wtime();
+  waited_before_ = link::waiting_seconds();
+}
+
+void FixFluidCouple::pre_initial_integrate() {
+  if (resuming_)
+    restore_forces();
+  if (overlap_ && !ahead_)
+    begin_interval();
+  if (countdown_ == 1)
+    look_for_signals();
+}
+
+void FixFluidCouple::begin_interval() {
+  try {
+    peer_->advance();
+  } catch (const link::Refusal& refusal) {
+    keep_particles();
+    refuse(refusal.what());
+  }
+  ahead_ = true;
+}
+
+void FixFluidCouple::end_of_step() {
+  if (--countdown_ > 0)
+    return;
+  countdown_ = interval_;
+  const int stop_before = stop_;
+  meet(interval_ * update->dt);
+  forces_->reset_reaction();
+  ++meetings_;
+  if (next_reneighbor == update->ntimestep)
+    write_checkpoint();
+  if (stop_before)
+    stop_for_signal();
+  plan_checkpoint();
+}
+
+void FixFluidCouple::post_run() {
+  if (!agreed_)
+    return;
+  if (comm->me == 0)
+    for (FILE* out : {screen, logfile})
+      if (out)
+        std::fputs(load_.table().c_str(), out);
+  load_ = {};
+  try {
+    peer_->run_ended();
+  } catch (const link::Refusal& refusal) {
+    refuse(refusal.what());
+  }
+}
+
+void FixFluidCouple::pack() {
+  const int count = atom->nlocal;
+  position_.resize(3 * std::size_t(count));
+  volume_.resize(count);
+  extent_.resize(bodies_ ? link::kExtentDoubles * std::size_t(count) : 0);
+  for (int i = 0; i < count; ++i) {
+    double* x = position_.data() + 3 * std::size_t(i);
+    std::copy_n(atom->x[i], 3, x);
+    // Between neighbour rebuilds LIGGGHTS lets positions run out of a periodic box.
+    for (int k = 0; k < 3; ++k)
+      if (domain->periodicity[k])
+        x[k] = wrapped(x[k], domain->boxlo[k], domain->boxhi[k]);
+    volume_[i] = forces_->particle_volume(i);
+    if (bodies_)
+      pack_extent(i, extent_.data() + link::kExtentDoubles * std::size_t(i));
+  }
+}
+
+// Six points at +-e_k with a sixth of the volume each have the second moment M_kk = V |e_k|^2 / 3 about axis k.
+void FixFluidCouple::pack_extent(int i, double* extent) {
+  using Row = Eigen::Map<Eigen::Vector3d>;
+  const int shape = bodies_->shape_id(i);
+  if (shape < 0) {
+    // A ball's second moment is V R^2 / 5.
+    const double radius = 0.5 * forces_->equivalent_diameter(i);
+    Eigen::Map<Eigen::Matrix3d>(extent, 3, 3) = std::sqrt(3.0 / 5.0) * radius * Eigen::Matrix3d::Identity();
+    return;
+  }
+  const double* q = bodies_->quaternion(i);
+  const Eigen::Matrix3d axes = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+  const Eigen::Vector3d inertia = bodies_->shapes()[shape].inertia_per_mass();
+  for (int k = 0; k < 3; ++k) {
+    // Moments of inertia are sums of second moments: I_k = M_i + M_j.
+    const double moment = 0.5 * inertia.sum() - inertia[k];
+    Row(extent + 3 * k) = std::sqrt(3.0 * std::max(moment, 0.0)) * axes.col(k);
+  }
+}
+
+void FixFluidCouple::add_totals(double computed, link::Meeting& meeting) const {
+  link::DemTotals& sums = meeting.totals;
+  const FluidReaction reaction = forces_->reaction();
+  enum {
+    kVolume,
+    kMass,
+    kImpulse,
+    kMomentum = kImpulse + 3,
+    kPosition = kMomentum + 3,
+    kVelocity = kPosition + 3,
+    kParticles = kVelocity + 3,
+    kComputed,
+    kCount
+  };
+  double mine[kCount] = {};
+  mine[kParticles] = atom->nlocal;
+  mine[kComputed] = computed;
+  enum { kFastest, kMostParticles, kMostComputed, kMaxima };
+  double most[kMaxima] = {0, double(atom->nlocal), computed};
+  double& fastest = most[kFastest];
+  for (int i = 0; i < atom->nlocal; ++i) {
+    mine[kVolume] += volume_[i];
+    mine[kMass] += atom->rmass[i];
+    double speed = 0;
+    for (int k = 0; k < 3; ++k) {
+      mine[kImpulse + k] += reaction.impulse[i][k];
+      mine[kMomentum + k] += atom->rmass[i] * atom->v[i][k] + 0.5 * update->dt * atom->f[i][k];
+      mine[kPosition + k] += volume_[i] * position_[3 * std::size_t(i) + k];
+      mine[kVelocity + k] += volume_[i] * atom->v[i][k];
+      speed += atom->v[i][k] * atom->v[i][k];
+    }
+    fastest = std::max(fastest, speed);
+  }
+  double all[kCount];
+  MPI_Allreduce(mine, all, kCount, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, most, kMaxima, MPI_DOUBLE, MPI_MAX, world);
+  sums.fastest = std::sqrt(fastest);
+  meeting.load.ranks = comm->nprocs;
+  meeting.load.most_particles = std::llround(most[kMostParticles]);
+  meeting.load.mean_seconds = all[kComputed] / comm->nprocs;
+  meeting.load.most_seconds = most[kMostComputed];
+  sums.particles = std::llround(all[kParticles]);
+  for (int i = 0; i < modify->nfix; ++i) {
+    Fix* const fix = modify->fix[i];
+    if (std::strncmp(fix->style, "insert/", std::strlen("insert/")) != 0)
+      continue;
+    sums.inserted += std::llround(fix->compute_vector(kInsertedNumber));
+    sums.inserted_mass += fix->compute_vector(kInsertedMass);
+  }
+  sums.volume = all[kVolume];
+  sums.mass = all[kMass];
+  std::copy_n(all + kImpulse, 3, sums.impulse);
+  std::copy_n(all + kMomentum, 3, sums.momentum);
+  std::copy_n(all + kPosition, 3, sums.volume_position);
+  std::copy_n(all + kVelocity, 3, sums.volume_velocity);
+}
+
+void FixFluidCouple::meet(double elapsed) {
+  const double arrived = MPI_Wtime();
+  const double waited = link::waiting_seconds() - waited_before_;
+  const double computed = elapsed > 0 ? std::max(0.0, arrived - left_fluid_at_ - waited) : 0.0;
+  link::Meeting meeting;
+  meeting.needed = forces_->needs();
+  meeting.elapsed = elapsed;
+  meeting.dem_seconds = elapsed > 0 ? arrived - left_fluid_at_ : 0.0;
+  meeting.pack_seconds = pack_seconds_;
+  meeting.steps_done = update->ntimestep - update->firststep;
+  meeting.steps_total = update->laststep - update->firststep;
+  pack();
+  add_totals(computed, meeting);
+  load_.add(meeting);
+  const FluidReaction reaction = forces_->reaction();
+  link::ParticleArrays particles;
+  particles.count = atom->nlocal;
+  particles.position = reinterpret_cast<RowsOfThree>(position_.data());
+  particles.volume = volume_.data();
+  particles.impulse = reaction.impulse;
+  particles.drag_coefficient = reaction.drag_coefficient;
+  if (bodies_)
+    particles.extent = reinterpret_cast<const double(*)[link::kExtentDoubles]>(extent_.data());
+  particles.ticket = tickets_.data();
+  pack_seconds_ = MPI_Wtime() - arrived;
+  try {
+    const int signal = peer_->meet(meeting, particles, forces_->samples());
+    if (stop_ == 0)
+      stop_ = signal;
+  } catch (const link::Refusal& refusal) {
+    keep_particles();
+    refuse(refusal.what());
+  }
+  ahead_ = false;
+  leave_fluid();
+}
+
+void FixFluidCouple::grow_arrays(int rows) {
+  tickets_.resize(rows);
+  if (resuming_)
+    resumed_.resize(rows);
+}
+
+void FixFluidCouple::copy_arrays(int from, int to, int) {
+  tickets_[to] = tickets_[from];
+  if (resuming_)
+    resumed_[to] = resumed_[from];
+}
+
+void FixFluidCouple::set_arrays(int i) {
+  tickets_[i] = link::Ticket{};
+  if (resuming_)
+    resumed_[i] = Resumed{};
+}
+
+int FixFluidCouple::pack_exchange(int i, double* buffer) {
+  buffer[0] = tickets_[i].rank;
+  buffer[1] = tickets_[i].cell;
+  if (!resuming_)
+    return kTicketDoubles;
+  std::memcpy(buffer + kTicketDoubles, resumed_[i].values, sizeof resumed_[i].values);
+  return kTicketDoubles + kForceDoubles;
+}
+
+int FixFluidCouple::unpack_exchange(int row, double* buffer) {
+  tickets_[row] = {static_cast<std::int32_t>(buffer[0]), static_cast<std::int32_t>(buffer[1])};
+  if (!resuming_)
+    return kTicketDoubles;
+  std::memcpy(resumed_[row].values, buffer + kTicketDoubles, sizeof resumed_[row].values);
+  return kTicketDoubles + kForceDoubles;
+}
+
+double FixFluidCouple::memory_usage() {
+  return double(tickets_.capacity() * sizeof(link::Ticket)) +
+         double((position_.capacity() + volume_.capacity() + extent_.capacity()) * sizeof(double));
+}
+
+} // namespace eccentra::fluid

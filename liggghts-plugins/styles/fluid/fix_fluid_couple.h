@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fix style fluid/couple: every N steps the particles meet the fluid, inside one LIGGGHTS run.
+#pragma once
+
+#include "link/fluid_peer.h"
+#include "link/load_sums.h"
+#include "link/socket/socket_peer.h"
+#include "styles/bodies/bodies.h"
+#include "styles/fluid/fix_fluid_force.h"
+
+#include <mpi.h>
+
+#include "fix.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace eccentra::fluid {
+
+/// Hands positions, volumes and the impulses that fix fluid/force has gathered to the fluid, and puts what the flow is
+/// at each particle into fix fluid/force. Knows the fluid only as a link::FluidPeer.
+class FixFluidCouple : public LAMMPS_NS::Fix {
+ public:
+  FixFluidCouple(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
+  ~FixFluidCouple() override;
+
+  int setmask() override;
+  void post_create() override;
+  void init() override;
+  void setup(int vflag) override;
+  void pre_initial_integrate() override;
+  void end_of_step() override;
+  void post_run() override;
+
+  void grow_arrays(int rows) override;
+  void copy_arrays(int from, int to, int delflag) override;
+  void set_arrays(int i) override;
+  int pack_exchange(int i, double* buffer) override;
+  int unpack_exchange(int row, double* buffer) override;
+  int pack_restart(int i, double* buffer) override;
+  void unpack_restart(int row, int nth) override;
+  int size_restart(int row) override;
+  int maxsize_restart() override;
+  void write_restart(FILE* file) override;
+  void restart(char* buffer) override;
+  double memory_usage() override;
+
+ private:
+  /// Force and torque with which a run goes on, and the ticket.
+  struct Resumed {
+    double values[6];
+  };
+  [[noreturn]] void refuse(const std::string& text);
+  void connect();
+  void tell_of_lanes() const;
+  void read(const std::vector<std::string>& words);
+  link::DemTerms terms() const;
+  void meet(double elapsed);
+  /// Sees to it that the atoms are sorted and listed anew in the step of the next meeting, if a checkpoint is due
+  /// there: the run that reads it begins with just that.
+  void plan_checkpoint();
+  void write_checkpoint();
+  void restore_forces();
+  void look_for_signals();
+  [[noreturn]] void stop_for_signal();
+  /// After the link has failed: what this side alone can keep.
+  void keep_particles();
+  void pack();
+  void pack_extent(int i, double* extent);
+  /// `computed`: seconds of this rank since the last meeting, without waiting.
+  void add_totals(double computed, link::Meeting& meeting) const;
+  void begin_interval();
+  void leave_fluid();
+
+  std::string link_;
+  std::string address_; ///< of link socket
+  std::string keys_;    ///< folder
+  link::Patience patience_;
+  int interval_ = 0;
+  int countdown_ = 0;
+  bool overlap_ = false;
+  bool lanes_ = true;  ///< ranks send their particles themselves where that is possible
+  bool ahead_ = false; ///< with overlap: the fluid takes the step of the present interval
+  bool agreed_ = false;
+  bool met_ = false;
+  int checkpoint_every_ = 0;     ///< meetings; 0: only when a signal asks to stop
+  std::int64_t meetings_ = 0;    ///< since the beginning, also of earlier runs
+  int stop_ = 0;                 ///< signal that asks one of the sides to stop
+  link::CheckpointMark mark_;    ///< while a checkpoint is written, or until the run that goes on from it has begun
+  std::uint64_t layout_ = 0;     ///< for which the tickets hold
+  bool resuming_ = false;        ///< until the first step
+  std::vector<Resumed> resumed_; ///< per atom, while resuming_
+  link::FluidPeer* peer_ = nullptr;
+  std::unique_ptr<link::SocketPeer> own_peer_; ///< null with link solver
+  FixFluidForce* forces_ = nullptr;
+  cluster::FixBodies* bodies_ = nullptr; ///< null where all particles are spheres
+
+  std::vector<link::Ticket> tickets_; ///< per atom; migrates
+  std::vector<double> position_;      ///< packed rows of three
+  std::vector<double> volume_;
+  std::vector<double> extent_; ///< packed rows of link::kExtentDoubles; empty where all particles are spheres
+  double left_fluid_at_ = 0;   ///< wall-clock time when the last meeting ended [s]
+  double waited_before_ = 0;   ///< link::waiting_seconds() at that time
+  link::LoadSums load_;        ///< of the present run
+  double pack_seconds_ = 0;
+};
+
+} // namespace eccentra::fluid

@@ -1,0 +1,375 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Implements fix fluid/force: time stepping and per-atom data around the effects.
+#include "styles/fluid/fix_fluid_force.h"
+
+#include "styles/entry/style_registry.h"
+#include "styles/fluid/sample_arrays.h"
+
+#include <mpi.h>
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "fix_gravity.h"
+#include "lammps.h"
+#include "modify.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+
+using namespace LAMMPS_NS;
+
+namespace eccentra::fluid {
+
+namespace {
+
+const host::RegisterFix<FixFluidForce>
+    kRecord("fluid/force", "drag, lift, pressure, stress and buoyancy forces of a Herschel-Bulkley fluid on particles");
+
+constexpr const char* kEffectOrder[] = {"drag",           "shear_lift", "rotational_lift", "pressure_gradient",
+                                        "viscous_stress", "buoyancy",   "drag_torque"};
+constexpr int kDimension = 3;
+
+} // namespace
+
+FixFluidForce::FixFluidForce(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg), geometry_(lmp) {
+  const std::vector<std::string> words(arg + 3, arg + narg);
+  if (!atom->radius_flag || !atom->rmass_flag)
+    error->all(FLERR, "fix fluid/force needs particles with radius and mass: use atom_style granular");
+  if (find(lmp))
+    error->all(FLERR, ("fix fluid/force '" + std::string(id) + "' is the second one, after '" + find(lmp)->id +
+                       "': write all effects in one fix fluid/force")
+                          .c_str());
+  try {
+    options_ = read_fluid_options(words, atom->ntypes);
+  } catch (const std::invalid_argument& problem) {
+    error->all(FLERR, ("fix fluid/force '" + std::string(id) + "': " + problem.what()).c_str());
+  }
+  effects_ = make_effects(options_);
+  seconds_.assign(effects_.size(), 0.0);
+  if (options_.screen.tolerance > 0.0)
+    screen_ = std::make_unique<EffectScreen>(options_.screen, effects_);
+  geometry_.set_sphericity(options_.sphericity);
+
+  vector_flag = 1;
+  size_vector = kDimension * static_cast<int>(std::size(kEffectOrder));
+  global_freq = 1;
+  extvector = 1;
+  peratom_flag = 1;
+  size_peratom_cols = 4;
+  peratom_freq = 1;
+  restart_global = 1;
+  restart_peratom = 1;
+  create_attribute = 1;
+
+  arrays_.declare(kImpulse, kDimension, true);
+  arrays_.declare(kCoefficient, 1, true);
+  arrays_.declare(kLast, kDimension + 1, true);
+  switch_effects(std::vector<bool>(effects_.size(), true));
+  atom->add_callback(0);
+  atom->add_callback(1);
+}
+
+FixFluidForce::~FixFluidForce() {
+  atom->delete_callback(id, 0);
+  atom->delete_callback(id, 1);
+}
+
+FixFluidForce* FixFluidForce::find(LAMMPS* lmp) {
+  for (int i = 0; i < lmp->modify->nfix; ++i)
+    if (auto* fix = dynamic_cast<FixFluidForce*>(lmp->modify->fix[i]))
+      return fix;
+  return nullptr;
+}
+
+void FixFluidForce::switch_effects(const std::vector<bool>& on) {
+  acting_ = on;
+  needs_ = 0;
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    if (acting_[e])
+      needs_ |= effects_[e]->needs();
+  declare_arrays();
+}
+
+void FixFluidForce::declare_arrays() {
+  unsigned array = 0;
+  for (const SampleArray& sample : kSampleArrays) {
+    const bool needed = needs_ & sample.quantity;
+    if (arrays_.enabled(array) != needed || !array_atom)
+      arrays_.declare(array, sample.columns, needed);
+    ++array;
+  }
+  grow_arrays(atom->nmax);
+}
+
+FluidSamples FixFluidForce::samples() {
+  awaits_samples_ = false;
+  return sample_arrays();
+}
+
+FluidSamples FixFluidForce::sample_arrays() {
+  const auto rows_of_three = [this](unsigned array) { return reinterpret_cast<double(*)[3]>(arrays_.data(array)); };
+  return {rows_of_three(0), arrays_.data(1), rows_of_three(2), rows_of_three(3), rows_of_three(4)};
+}
+
+FluidReaction FixFluidForce::reaction() {
+  return {reinterpret_cast<double(*)[3]>(arrays_.data(kImpulse)), arrays_.data(kCoefficient), elapsed_};
+}
+
+void FixFluidForce::reset_reaction() {
+  const std::size_t count = atom->nlocal;
+  std::fill_n(arrays_.data(kImpulse), kDimension * count, 0.0);
+  std::fill_n(arrays_.data(kCoefficient), count, 0.0);
+  elapsed_ = 0.0;
+}
+
+std::array<double, 3> FixFluidForce::received(int i) {
+  const double* impulse = arrays_.data(kImpulse) + kDimension * std::size_t(i);
+  const double* last = arrays_.data(kLast) + (kDimension + 1) * std::size_t(i);
+  return {impulse[0] - owed_ * last[0], impulse[1] - owed_ * last[1], impulse[2] - owed_ * last[2]};
+}
+
+bool FixFluidForce::acts(const std::string& effect) const {
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    if (acting_[e] && effect == effects_[e]->slot())
+      return true;
+  return false;
+}
+
+void FixFluidForce::announce_source(const std::string& fix_id) {
+  if (std::find(sources_.begin(), sources_.end(), fix_id) == sources_.end())
+    sources_.push_back(fix_id);
+}
+
+int FixFluidForce::setmask() {
+  return FixConst::PRE_INITIAL_INTEGRATE | FixConst::PRE_FINAL_INTEGRATE;
+}
+
+// LIGGGHTS would call set_arrays for all atoms at the first set-up, also over what was read from a restart file.
+void FixFluidForce::post_create() {
+  if (!recent_restart)
+    for (int i = 0; i < atom->nlocal; ++i)
+      set_arrays(i);
+  just_created = 0;
+}
+
+void FixFluidForce::init() {
+  if (std::strcmp(update->integrate_style, "verlet") != 0)
+    error->all(FLERR, ("fix fluid/force works with run_style verlet, not with '" +
+                       std::string(update->integrate_style) + "': remove the command run_style")
+                          .c_str());
+  if (modify->n_fixes_style_strict("gravity") > 1)
+    error->all(FLERR, "fix fluid/force found more than one fix gravity: buoyancy needs exactly one, so join them");
+  if (modify->n_fixes_style("multisphere"))
+    error->all(FLERR, "fix fluid/force treats each particle by itself and fix multisphere would make one of each "
+                      "sub-sphere: use particletemplate/cluster with fix nve/cluster instead");
+  geometry_.init();
+  for (const auto& effect : effects_)
+    effect->prepare(geometry_);
+}
+
+void FixFluidForce::setup(int) {
+  sources_.erase(std::remove_if(sources_.begin(), sources_.end(),
+                                [this](const std::string& source) { return modify->find_fix(source.c_str()) < 0; }),
+                 sources_.end());
+  if (needs_ && sources_.empty())
+    error->all(FLERR, ("fix fluid/force '" + std::string(id) +
+                       "' has nobody to sample the flow: add fix fluid/uniform (a prescribed flow) or fix "
+                       "fluid/couple (a solver)")
+                          .c_str());
+  if (sources_.size() > 1)
+    error->all(FLERR, ("fix fluid/force '" + std::string(id) + "' is given the flow by both fix '" + sources_[0] +
+                       "' and fix '" + sources_[1] + "': unfix one of them")
+                          .c_str());
+  first_step_ = !carries_on_;
+  carries_on_ = false;
+  first_of_run_ = update->ntimestep;
+  run_began_ = MPI_Wtime();
+  std::fill(seconds_.begin(), seconds_.end(), 0.0);
+  visits_ = 0.0;
+  if (!reported_)
+    report_effects();
+  reported_ = true;
+}
+
+// The first half kick of a run is applied here and not in setup(), where fixes further down have not yet added theirs.
+void FixFluidForce::pre_initial_integrate() {
+  if (!first_step_)
+    return;
+  first_step_ = false;
+  // The half kick that a run before this one left unapplied is replaced by a new one.
+  auto* impulse = reinterpret_cast<double(*)[3]>(arrays_.data(kImpulse));
+  auto* last = reinterpret_cast<double(*)[4]>(arrays_.data(kLast));
+  double* coefficient = arrays_.data(kCoefficient);
+  for (int i = 0; i < atom->nlocal; ++i) {
+    for (int k = 0; k < kDimension; ++k)
+      impulse[i][k] -= owed_ * last[i][k];
+    coefficient[i] -= owed_ * last[i][kDimension];
+  }
+  elapsed_ -= owed_;
+  apply(0.5 * update->dt);
+  owed_ = 0.0;
+}
+
+void FixFluidForce::pre_final_integrate() {
+  apply(update->dt);
+  owed_ = 0.5 * update->dt;
+  if (screen_)
+    follow_screen();
+}
+
+Kick FixFluidForce::make_kick(double interval) {
+  geometry_.refresh();
+  Kick kick;
+  kick.count = atom->nlocal;
+  kick.interval = interval;
+  kick.velocity = atom->v;
+  kick.force = atom->f;
+  kick.spin = atom->omega;
+  kick.torque = atom->torque;
+  kick.mass = atom->rmass;
+  kick.radius = geometry_.radius();
+  kick.kind = geometry_.kind();
+  kick.mask = atom->mask;
+  kick.group = groupbit;
+  for (int i = 0; i < modify->nfix; ++i) {
+    Fix* fix = modify->fix[i];
+    if (fix->time_integrate)
+      kick.integrated |= fix->groupbit;
+    if (!std::strcmp(fix->style, "freeze"))
+      kick.frozen |= fix->groupbit;
+    if (!std::strcmp(fix->style, "gravity"))
+      static_cast<FixGravity*>(fix)->get_gravity(kick.gravity);
+  }
+  kick.samples = sample_arrays();
+  kick.impulse = reinterpret_cast<double(*)[3]>(arrays_.data(kImpulse));
+  kick.drag_coefficient = arrays_.data(kCoefficient);
+  kick.last = reinterpret_cast<double(*)[4]>(arrays_.data(kLast));
+  return kick;
+}
+
+void FixFluidForce::apply(double interval) {
+  const Kick kick = make_kick(interval);
+  std::fill_n(arrays_.data(kLast), (kDimension + 1) * std::size_t(kick.count), 0.0);
+  elapsed_ += interval;
+  if (screen_ && screen_->sample_now()) {
+    screen_->apply(kick, effects_, options_.rheology);
+    return;
+  }
+  double before = MPI_Wtime();
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    if (!acting_[e])
+      continue;
+    effects_[e]->apply(kick);
+    const double after = MPI_Wtime();
+    seconds_[e] += after - before;
+    before = after;
+  }
+  visits_ += kick.count;
+}
+
+void FixFluidForce::grow_arrays(int rows) {
+  arrays_.grow(rows);
+  rows_.resize(rows);
+  for (int i = 0; i < rows; ++i)
+    rows_[i] = arrays_.data(kLast) + (kDimension + 1) * std::size_t(i);
+  array_atom = rows_.data();
+}
+
+void FixFluidForce::copy_arrays(int from, int to, int) {
+  arrays_.copy(from, to);
+}
+
+// Until the flow is sampled at it, a new particle moves with the fluid, in clear fluid.
+void FixFluidForce::set_arrays(int i) {
+  arrays_.zero(i);
+  const FluidSamples flow = sample_arrays();
+  if (flow.velocity)
+    std::copy_n(atom->v[i], kDimension, flow.velocity[i]);
+  if (flow.fraction)
+    flow.fraction[i] = 1.0;
+}
+
+int FixFluidForce::pack_exchange(int i, double* buffer) {
+  return arrays_.pack(i, buffer);
+}
+
+int FixFluidForce::unpack_exchange(int row, double* buffer) {
+  return arrays_.unpack(row, buffer);
+}
+
+int FixFluidForce::pack_restart(int i, double* buffer) {
+  buffer[0] = size_restart(i);
+  buffer[1] = arrays_.layout();
+  arrays_.pack(i, buffer + 2);
+  return size_restart(i);
+}
+
+void FixFluidForce::unpack_restart(int row, int nth) {
+  const double* extra = atom->extra[row];
+  for (int i = 0; i < nth; ++i)
+    extra += static_cast<int>(*extra);
+  set_arrays(row);
+  arrays_.unpack(row, extra + 2, static_cast<unsigned>(extra[1]));
+}
+
+int FixFluidForce::size_restart(int) {
+  return arrays_.columns() + 2;
+}
+
+int FixFluidForce::maxsize_restart() {
+  return arrays_.columns() + 2;
+}
+
+void FixFluidForce::write_restart(FILE* file) {
+  std::vector<double> state = {elapsed_, owed_, double(effects_.size())};
+  for (const bool on : acting_)
+    state.push_back(on);
+  state.push_back(measurement_due_);
+  state.push_back(screen_ ? 1.0 : 0.0);
+  if (screen_) {
+    const std::vector<double> more = screen_->save(world);
+    state.insert(state.end(), more.begin(), more.end());
+  }
+  if (comm->me != 0)
+    return;
+  const int bytes = static_cast<int>(state.size() * sizeof(double));
+  std::fwrite(&bytes, sizeof(int), 1, file);
+  std::fwrite(state.data(), sizeof(double), state.size(), file);
+}
+
+// The script may name other effects than the one that wrote the file did: then it has its way.
+void FixFluidForce::restart(char* buffer) {
+  const auto* state = reinterpret_cast<const double*>(buffer);
+  elapsed_ = state[0];
+  owed_ = state[1];
+  const auto count = static_cast<std::size_t>(state[2]);
+  const double* screened = state + 4 + count;
+  if (count != effects_.size() || !screen_ || *screened == 0.0)
+    return;
+  screen_->load(screened + 1, comm->me == 0);
+  switch_effects(std::vector<bool>(state + 3, state + 3 + count));
+  if (state[3 + count] != 0.0)
+    prepare_measurement();
+}
+
+double FixFluidForce::memory_usage() {
+  return double(atom->nmax) * arrays_.columns() * sizeof(double);
+}
+
+double FixFluidForce::compute_vector(int n) {
+  const std::string wanted = kEffectOrder[n / kDimension];
+  double mine = 0.0;
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    if (acting_[e] && wanted == effects_[e]->slot())
+      mine = effects_[e]->total()[n % kDimension];
+  double all = 0.0;
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+} // namespace eccentra::fluid

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Implements ParticleGeometry on LIGGGHTS's atoms.
+#include "styles/fluid/particle_geometry.h"
+
+#include "styles/bodies/bodies.h"
+
+#include <mpi.h>
+
+#include "atom.h"
+#include "lammps.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+namespace eccentra::fluid {
+
+namespace {
+constexpr double kSphereInertia = 0.4;
+}
+
+void ParticleGeometry::init() {
+  bodies_ = cluster::FixBodies::find(lmp_);
+  if (bodies_)
+    areas_.resize(bodies_->shapes().size());
+}
+
+void ParticleGeometry::refresh() {
+  if (!bodies_)
+    return;
+  const LAMMPS_NS::Atom& atom = *lmp_->atom;
+  radius_.resize(atom.nmax);
+  kind_.resize(atom.nmax);
+  for (int i = 0; i < atom.nlocal; ++i) {
+    const int shape = bodies_->shape_id(i);
+    radius_[i] = radius_of(i);
+    kind_[i] = shape < 0 ? atom.type[i] : atom.ntypes + 1 + shape;
+  }
+}
+
+const double* ParticleGeometry::radius() const {
+  return bodies_ ? radius_.data() : lmp_->atom->radius;
+}
+
+const int* ParticleGeometry::kind() const {
+  return bodies_ ? kind_.data() : lmp_->atom->type;
+}
+
+int ParticleGeometry::kinds() const {
+  return lmp_->atom->ntypes + 1 + (bodies_ ? bodies_->shapes().size() : 0);
+}
+
+ShapeFactors ParticleGeometry::factors(int kind) const {
+  ShapeFactors shape;
+  const int id = kind - lmp_->atom->ntypes - 1;
+  if (id >= 0)
+    shape.sphericity = std::min(1.0, bodies_->shapes()[id].sphericity());
+  else
+    shape.sphericity = sphericity_.size() == 1 ? sphericity_[0] : sphericity_[kind > 0 ? kind - 1 : 0];
+  return shape;
+}
+
+double ParticleGeometry::inertia_factor(int kind) const {
+  const int id = kind - lmp_->atom->ntypes - 1;
+  if (id < 0)
+    return kSphereInertia;
+  const shape::ClusterShape& cluster = bodies_->shapes()[id];
+  return cluster.inertia_per_mass().minCoeff() / (cluster.equivalent_radius() * cluster.equivalent_radius());
+}
+
+double ParticleGeometry::crosswise_sphericity(int i, const double* direction) const {
+  const int id = bodies_ ? bodies_->shape_id(i) : -1;
+  if (id < 0)
+    return 1.0;
+  const shape::ClusterShape& cluster = bodies_->shapes()[id];
+  if (!areas_[id])
+    areas_[id] = std::make_unique<ProjectedAreaTable>(cluster.spheres());
+  const double* q = bodies_->quaternion(i);
+  const Eigen::Vector3d world(direction[0], direction[1], direction[2]);
+  const Eigen::Vector3d body = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * world;
+  const double radius = cluster.equivalent_radius();
+  return kPi * radius * radius / areas_[id]->at(body);
+}
+
+double ParticleGeometry::radius_of(int i) const {
+  const int shape = bodies_ ? bodies_->shape_id(i) : -1;
+  return shape < 0 ? lmp_->atom->radius[i] : bodies_->shapes()[shape].equivalent_radius();
+}
+
+} // namespace eccentra::fluid

@@ -1,0 +1,341 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Contacts of pair_style gran/cluster in blocks: exact overlaps, history, damping, forces on bodies. Loops whose length
+// differs from pair to pair cost a wrong guess of the processor each: where they can, loops run over whole blocks.
+#include "contact/shared_contacts.h"
+#include "styles/pairs/pair_gran_cluster.h"
+
+#include "atom.h"
+#include "error.h"
+#include "update.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <type_traits>
+
+namespace eccentra::cluster {
+
+using namespace LAMMPS_NS;
+
+namespace {
+
+/// Up to so many contacts of a pair share damping each with each, more by way of tensors.
+constexpr int shared_each_with_each = 8;
+
+/// Faces of two lattices of spheres touch at up to four neighbours each (cubes) or seven (disks).
+constexpr int interpenetrating = 8;
+
+constexpr int whole_vectors(int count) {
+  return (count + contact_width - 1) / contact_width * contact_width;
+}
+
+} // namespace
+
+/// Evaluates the only pair that waits, which has more possible contacts than a block has room for.
+void PairGranCluster::evaluate_large() {
+  const int count = waiting_.candidates();
+  const NearPair& p = near_->pairs[waiting_.pair(0).number];
+  const int finer = std::max(p.surface_a->count, p.surface_b->count);
+  if (count > interpenetrating * finer)
+    error->one(FLERR, ("two clusters touch at up to " + std::to_string(count) + " sub-spheres at once, more than " +
+                       std::to_string(interpenetrating) + " for each of the " + std::to_string(finer) +
+                       " at the surface of the finer: they have run into each other: use a smaller time step (see fix "
+                       "timestep/limit)")
+                          .c_str());
+  if (!large_block_)
+    large_block_ = std::make_unique<LargeContactBlock>();
+  large_block_->reserve(count);
+  evaluate_waiting(*large_block_);
+}
+
+void PairGranCluster::evaluate_waiting() {
+  if (waiting_.count() > 0)
+    evaluate_waiting(block_);
+}
+
+/// Finds the contacts of all pairs that wait, and adds their forces.
+template <class Block> void PairGranCluster::evaluate_waiting(Block& c) {
+  const std::size_t room = whole_vectors(waiting_.candidates()) + contact_width;
+  if (block_ids_.size() < room) {
+    block_ids_.resize(room);
+    block_pair_.resize(room);
+  }
+  const bool spheres = waiting_.all_direct();
+  if (spheres)
+    find_contacts_of_spheres(c);
+  else
+    find_contacts(c);
+  pairs_in_block_ = 0;
+  int first = 0;
+  for (int k = 0; k < waiting_.count(); ++k) {
+    const WaitingPair& pair = waiting_.pair(k);
+    if (pair.last_contact > first)
+      add_pair(c, pair, first);
+    else
+      not_touching(pair, k);
+    first = pair.last_contact;
+  }
+  waiting_.clear();
+  if (filled_ == 0)
+    return;
+  const int padded = whole_vectors(filled_);
+  for (int m = filled_; m < padded; ++m) {
+    // A harmless contact in the unused lanes.
+    c.separation[0][m] = 1;
+    c.separation[1][m] = c.separation[2][m] = 0;
+    c.radius_a[m] = c.radius_b[m] = 1;
+    for (int k = 0; k < 3; ++k)
+      c.history[k][m] = 0;
+  }
+  recall_history(c);
+  single_contacts_ = spheres;
+  if (words_.damping == DampingLaw::stock)
+    compute_block<DampingLaw::stock>(c, padded);
+  else
+    compute_block<DampingLaw::paper>(c, padded);
+  ContactList& next = near_->next;
+  next.id.insert(next.id.end(), block_ids_.data(), block_ids_.data() + filled_);
+  for (int k = 0; k < 3; ++k)
+    next.displacement[k].insert(next.displacement[k].end(), c.history[k], c.history[k] + filled_);
+  if (spheres) {
+    for (int n = 0; n < pairs_in_block_; ++n)
+      scatter(n, c);
+    return;
+  }
+  add_contact_forces(c, block_pair_.data(), filled_, pairs_, pairs_in_block_);
+  for (int n = 0; n < pairs_in_block_; ++n)
+    scatter(n, pairs_);
+}
+
+/// The exact test: writes those candidates of the pairs that wait which do overlap to the block.
+template <class Block> void PairGranCluster::find_contacts(Block& c) {
+  const int *ids = waiting_.ids(), *pair_of = waiting_.pair_of(), count = waiting_.candidates();
+  double* excesses = waiting_.excess();
+  int* block_ids = block_ids_.data();
+  int m = 0;
+  // Every candidate is written; the next one takes the place of one that does not touch.
+  for (int n = 0; n < count; ++n) {
+    const int id = ids[n];
+    WaitingPair& p = waiting_.pair(pair_of[n]);
+    const Double4 *turn_a = p.a->column, *turn_b = p.b->column;
+    const Double4 sphere_a = p.spheres_a[contact_sphere_a(id)], sphere_b = p.spheres_b[contact_sphere_b(id)];
+    const Double4 arm = turn_a[0] * sphere_a[0] + turn_a[1] * sphere_a[1] + turn_a[2] * sphere_a[2];
+    const Double4 from_b = turn_b[0] * sphere_b[0] + turn_b[1] * sphere_b[1] + turn_b[2] * sphere_b[2] + p.to_b;
+    const Double4 separation = arm - from_b, square = separation * separation;
+    const double ra = sphere_a[3] + p.extra_a, rb = sphere_b[3] + p.extra_b;
+    const double excess = square[0] + square[1] + square[2] - (ra + rb) * (ra + rb);
+    for (int k = 0; k < 3; ++k) {
+      c.separation[k][m] = separation[k];
+      c.arm[k][m] = arm[k];
+    }
+    c.radius_a[m] = ra;
+    c.radius_b[m] = rb;
+    block_ids[m] = id;
+    excesses[n] = excess;
+    m += excess < 0;
+    p.last_contact = m;
+  }
+  filled_ = m;
+}
+
+/// The same where all of them are single spheres at their bodies' centres.
+template <class Block> void PairGranCluster::find_contacts_of_spheres(Block& c) {
+  double* excesses = waiting_.excess();
+  int* block_ids = block_ids_.data();
+  int m = 0;
+  for (int n = 0; n < waiting_.count(); ++n) {
+    WaitingPair& p = waiting_.pair(n);
+    const Double4 separation = -p.to_b, square = separation * separation;
+    const double ra = p.spheres_a[0][3] + p.extra_a, rb = p.spheres_b[0][3] + p.extra_b;
+    const double excess = square[0] + square[1] + square[2] - (ra + rb) * (ra + rb);
+    for (int k = 0; k < 3; ++k) {
+      c.separation[k][m] = separation[k];
+      c.arm[k][m] = 0;
+    }
+    c.radius_a[m] = ra;
+    c.radius_b[m] = rb;
+    block_ids[m] = contact_id(0, 0);
+    excesses[n] = excess;
+    m += excess < 0;
+    p.last_contact = m;
+  }
+  filled_ = m;
+}
+
+/// Adds what the contacts of a pair, which begin at `first`, have in common.
+template <class Block> void PairGranCluster::add_pair(Block& c, const WaitingPair& waiting, int first) {
+  const BodyState &body_a = *waiting.a, &body_b = *waiting.b;
+  const double *va = body_a.v, *vb = body_b.v, *wa = body_a.omega, *wb = body_b.omega;
+  const double offset[3] = {waiting.to_b[0], waiting.to_b[1], waiting.to_b[2]};
+  // Of B's matter, were it at A's centre.
+  const double velocity[3] = {va[0] - vb[0] + (wb[1] * offset[2] - wb[2] * offset[1]),
+                              va[1] - vb[1] + (wb[2] * offset[0] - wb[0] * offset[2]),
+                              va[2] - vb[2] + (wb[0] * offset[1] - wb[1] * offset[0])};
+  const double spin[3] = {wa[0] - wb[0], wa[1] - wb[1], wa[2] - wb[2]};
+  const int number = pairs_in_block_++, last = waiting.last_contact;
+  for (int start = first; start < last; start += contact_width)
+    for (int k = 0; k < contact_width; ++k) {
+      const int n = start + k;
+      c.velocity[0][n] = velocity[0];
+      c.velocity[1][n] = velocity[1];
+      c.velocity[2][n] = velocity[2];
+      c.spin[0][n] = spin[0];
+      c.spin[1][n] = spin[1];
+      c.spin[2][n] = spin[2];
+      block_pair_[n] = number;
+    }
+  // As a rule all bodies have the same mass and material: then what is there from the last block will do.
+  constexpr bool large = !std::is_same_v<Block, ContactBlock>;
+  const NearPair& near = near_->pairs[waiting.number];
+  const bool there = !large && one_kind_ && near_->kind(near.a) == kind_a_ && near_->kind(near.b) == kind_b_;
+  if (!there)
+    fill_materials(c, waiting, first, number);
+  if (!there || !one_inertia_)
+    fill_inertia(waiting, number);
+  // Member by member: a whole struct would be put together in memory and read back before it has arrived there.
+  const int* old_first = near_->contacts.first.data() + waiting.number;
+  PairInBlock& pair = in_block_[number];
+  pair.a = near.a;
+  pair.b = near.b;
+  pair.first = first;
+  pair.last = last;
+  pair.old_first = old_first[0];
+  pair.old_last = old_first[1];
+  near_->next.first[waiting.number + 1] = last - first;
+  for (int k = 0; k < 3; ++k)
+    pairs_.offset[k][number] = offset[k];
+}
+
+/// Masses and materials of a pair; at the start of a block for the whole of it: maybe the next pairs are like this one.
+template <class Block>
+void PairGranCluster::fill_materials(Block& c, const WaitingPair& waiting, int first, int number) {
+  constexpr bool large = !std::is_same_v<Block, ContactBlock>;
+  const BodyState &a = *waiting.a, &b = *waiting.b;
+  double mass = a.mass * b.mass / (a.mass + b.mass);
+  if (a.held)
+    mass = b.mass;
+  if (b.held)
+    mass = a.mass;
+  const double youngs = youngs_[a.type][b.type], shear = shear_[a.type][b.type];
+  const double damping = -damping_[a.type][b.type], friction = friction_[a.type][b.type];
+  one_kind_ = !large && number == 0;
+  kind_a_ = near_->kind(near_->pairs[waiting.number].a);
+  kind_b_ = near_->kind(near_->pairs[waiting.number].b);
+  const int last = one_kind_ ? ContactBlock::capacity + contact_width : waiting.last_contact;
+  for (int n = first; n < last; ++n) {
+    c.mass[n] = mass;
+    c.youngs[n] = youngs;
+    c.shear_modulus[n] = shear;
+    c.damping[n] = damping;
+    c.friction[n] = friction;
+    c.share[n] = 1;
+  }
+  const int last_pair = one_kind_ ? ContactBlock::capacity : number + 1;
+  std::fill(pairs_.ease_a + number, pairs_.ease_a + last_pair, a.held && !b.held ? 0 : b.mass);
+  std::fill(pairs_.ease_b + number, pairs_.ease_b + last_pair, b.held && !a.held ? 0 : a.mass);
+}
+
+/// Inertia of a pair, likewise; where it is the same about all axes, orientation does not change it.
+void PairGranCluster::fill_inertia(const WaitingPair& waiting, int number) {
+  const NearPair& p = near_->pairs[waiting.number];
+  one_inertia_ = one_kind_ && number == 0 && p.surface_a->equal_moments && p.surface_b->equal_moments;
+  const int last = one_inertia_ ? ContactBlock::capacity : number + 1;
+  const double *inverse_a = waiting.a->inverse_inertia, *inverse_b = waiting.b->inverse_inertia;
+  for (int k = 0; k < 6; ++k) {
+    std::fill(pairs_.inverse_a[k] + number, pairs_.inverse_a[k] + last, inverse_a[k]);
+    std::fill(pairs_.inverse_b[k] + number, pairs_.inverse_b[k] + last, inverse_b[k]);
+  }
+}
+
+/// Displacements of the contacts in the block: those of the last step, or 0 for a new contact.
+template <class Block> void PairGranCluster::recall_history(Block& c) {
+  const ContactList& before = near_->contacts;
+  // As a rule all of them were there in the last step, one after the other.
+  const int start = in_block_[0].old_first;
+  int changed = in_block_[pairs_in_block_ - 1].old_last - start != filled_;
+  for (int n = 0; n < pairs_in_block_; ++n)
+    changed |= in_block_[n].old_first - start != in_block_[n].first;
+  if (!changed)
+    for (int m = 0; m < filled_; ++m)
+      changed |= before.id[start + m] != block_ids_[m];
+  if (!changed) {
+    for (int k = 0; k < 3; ++k)
+      std::copy_n(before.displacement[k].data() + start, filled_, c.history[k]);
+    return;
+  }
+  for (int n = 0; n < pairs_in_block_; ++n) {
+    const PairInBlock& p = in_block_[n];
+    int old = p.old_first;
+    for (int m = p.first; m < p.last; ++m) {
+      while (old < p.old_last && before.id[old] < block_ids_[m])
+        ++old;
+      const bool known = old < p.old_last && before.id[old] == block_ids_[m];
+      for (int k = 0; k < 3; ++k)
+        c.history[k][m] = known ? before.displacement[k][old] : 0;
+    }
+  }
+}
+
+template <DampingLaw law, class Block> void PairGranCluster::compute_block(Block& block, int padded) {
+  contact_geometry(block, padded);
+  if (words_.sharing == ContactSharing::shared) {
+    if (single_contacts_)
+      std::fill_n(&block.share[0], padded, 1.);
+    else
+      share_damping(block, padded);
+  }
+  if (words_.tangential_damping)
+    contact_forces<law, true>(block, padded, update->dt, advance_);
+  else
+    contact_forces<law, false>(block, padded, update->dt, advance_);
+}
+
+/// Contacts of the same two bodies have one damper between them, tuned to the mass that they feel.
+template <class Block> void PairGranCluster::share_damping(Block& c, int padded) {
+  start_shared_sums(c, padded);
+  start_off_centre_sums(c, padded);
+  bool any_with_many = false;
+  add_off_centre_sums(c, block_pair_.data(), filled_, pairs_, pairs_in_block_);
+  for (int n = 0; n < pairs_in_block_; ++n) {
+    const PairInBlock& p = in_block_[n];
+    if (p.last - p.first > shared_each_with_each) {
+      any_with_many = true;
+      continue;
+    }
+    for (int j = p.first; j < p.last; ++j)
+      for (int k = j + 1; k < p.last; ++k)
+        add_shared_pair(c, j, k);
+  }
+  finish_shared_sums(c, padded);
+  for (int n = 0; any_with_many && n < pairs_in_block_; ++n) {
+    const PairInBlock& p = in_block_[n];
+    if (p.last - p.first <= shared_each_with_each)
+      continue;
+    SharedStiffness all;
+    for (int m = p.first; m < p.last; ++m)
+      all.add(c.contact_radius[m], c.overlap[m], c.normal[0][m], c.normal[1][m], c.normal[2][m]);
+    for (int m = p.first; m < p.last; ++m)
+      c.share[m] = all.damping_share(c.contact_radius[m], c.normal[0][m], c.normal[1][m], c.normal[2][m]);
+  }
+  off_centre_factors(pairs_, whole_vectors(pairs_in_block_));
+  for (int m = 0; m < filled_; ++m)
+    c.share[m] *= pairs_.factor[block_pair_[m]];
+}
+
+/// Adds the forces of a pair of bodies in the block. `forces` has rows of them, one place per pair.
+template <class Forces> void PairGranCluster::scatter(int pair, const Forces& forces) {
+  const PairInBlock& p = in_block_[pair];
+  const double fx = forces.force[0][pair], fy = forces.force[1][pair], fz = forces.force[2][pair];
+  const double tx = forces.torque[0][pair], ty = forces.torque[1][pair], tz = forces.torque[2][pair];
+  const double d[3] = {pairs_.offset[0][pair], pairs_.offset[1][pair], pairs_.offset[2][pair]};
+  BodyForce &a = near_->force(p.a), &b = near_->force(p.b);
+  a.force += Double4{fx, fy, fz, 0};
+  a.torque += Double4{tx, ty, tz, 0};
+  b.force -= Double4{fx, fy, fz, 0};
+  b.torque += Double4{d[1] * fz - d[2] * fy - tx, d[2] * fx - d[0] * fz - ty, d[0] * fy - d[1] * fx - tz, 0};
+  if (evflag)
+    ev_tally_xyz(p.a, p.b, atom->nlocal, 0, 0., 0., fx, fy, fz, -d[0], -d[1], -d[2]);
+}
+
+} // namespace eccentra::cluster

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Turns orientations with the exact rotation of a constant spin over the step.
+#include "styles/rolling/fix_sphere_orientation.h"
+
+#include "styles/entry/style_registry.h"
+
+#include "atom.h"
+#include "error.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <cstdint>
+#include <random>
+#include <stdexcept>
+
+namespace eccentra::rolling {
+namespace {
+
+constexpr char kStyle[] = "rolling/orientation";
+constexpr char kId[] = "eccentra_rolling_orientation";
+constexpr char kProperty[] = "eccentricOrientation";
+constexpr double kUnitDiameter = 2.0; ///< R_eq = 1
+
+const host::RegisterFix<FixSphereOrientation>
+    registration(kStyle, "orientation of rolling_friction eccentric (made by the model)");
+
+Eigen::Quaterniond random_orientation(long seed, int tag) {
+  std::seed_seq seeds{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(tag)};
+  std::mt19937 random(seeds);
+  std::normal_distribution<double> normal;
+  Eigen::Vector4d q;
+  for (double& component : q)
+    component = normal(random);
+  q.normalize();
+  return {q[0], q[1], q[2], q[3]};
+}
+
+} // namespace
+
+FixSphereOrientation::FixSphereOrientation(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {}
+
+FixSphereOrientation* FixSphereOrientation::find(LAMMPS_NS::LAMMPS* lmp) {
+  return dynamic_cast<FixSphereOrientation*>(lmp->modify->find_fix_id(kId));
+}
+
+FixSphereOrientation* FixSphereOrientation::make(LAMMPS_NS::LAMMPS* lmp, const std::vector<std::string>& shape_words,
+                                                 long seed) {
+  if (!lmp->modify->find_fix_id(kProperty)) {
+    std::string words[] = {kProperty, "all", "property/atom", kProperty, "vector", "yes", "no", "no", "0", "0",
+                           "0",       "0"};
+    constexpr int n = sizeof(words) / sizeof(words[0]);
+    char* arg[n];
+    for (int k = 0; k < n; ++k)
+      arg[k] = words[k].data();
+    lmp->modify->add_fix(n, arg);
+  }
+  if (!find(lmp)) {
+    std::string words[] = {kId, "all", kStyle};
+    char* arg[] = {words[0].data(), words[1].data(), words[2].data()};
+    lmp->modify->add_fix(3, arg);
+  }
+  FixSphereOrientation* const fix = find(lmp);
+  fix->property_ = dynamic_cast<LAMMPS_NS::FixPropertyAtom*>(lmp->modify->find_fix_id(kProperty));
+  fix->seed_ = seed;
+  if (fix->shape_ && fix->shape_words_ == shape_words)
+    return fix;
+  fix->shape_words_ = shape_words;
+  try {
+    std::size_t used = 0;
+    fix->shape_ = std::make_unique<SupportTable>(shape::make_shape(shape_words, 0, used, kUnitDiameter));
+  } catch (const std::invalid_argument& problem) {
+    lmp->error->all(FLERR, (std::string("rolling_friction eccentric: ") + problem.what()).c_str());
+  }
+  return fix;
+}
+
+int FixSphereOrientation::setmask() {
+  return LAMMPS_NS::FixConst::POST_INTEGRATE | LAMMPS_NS::FixConst::PRE_FORCE;
+}
+
+void FixSphereOrientation::init() {
+  if (!property_)
+    error->all(FLERR,
+               "fix rolling/orientation is made by pair_style gran ... rolling_friction eccentric: remove it from "
+               "the script");
+}
+
+void FixSphereOrientation::setup_pre_force(int) {
+  orient_new_spheres();
+}
+
+void FixSphereOrientation::post_integrate() {
+  const double dt = update->dt;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const Eigen::Map<const Eigen::Vector3d> omega(atom->omega[i]);
+    // sin(x)/x and cos(x) by series: an angle per step beyond 0.2 rad would be no resolved motion anyway.
+    const double half = 0.25 * dt * dt * omega.squaredNorm();
+    const double sine = 0.5 * dt * (1.0 - half / 6.0 * (1.0 - half / 20.0));
+    const double cosine = 1.0 - 0.5 * half * (1.0 - half / 12.0);
+    const Eigen::Quaterniond turn(cosine, sine * omega[0], sine * omega[1], sine * omega[2]);
+    double* const q = property_->array_atom[i];
+    Eigen::Quaterniond turned = turn * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+    // What a step adds to |q|^2 - 1 is round-off (or zero stays zero): one Newton step for 1/|q| takes it out.
+    turned.coeffs() *= 1.5 - 0.5 * turned.squaredNorm();
+    q[0] = turned.w();
+    q[1] = turned.x();
+    q[2] = turned.y();
+    q[3] = turned.z();
+  }
+}
+
+void FixSphereOrientation::orient_new_spheres() {
+  for (int i = 0; i < atom->nlocal; ++i) {
+    double* const q = property_->array_atom[i];
+    if (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] > 0.0)
+      continue;
+    const Eigen::Quaterniond orientation = random_orientation(seed_, atom->tag[i]);
+    q[0] = orientation.w();
+    q[1] = orientation.x();
+    q[2] = orientation.y();
+    q[3] = orientation.z();
+  }
+}
+
+void FixSphereOrientation::pre_force(int) {
+  if (neighbor->ago == 0) // insertion happens where lists are rebuilt
+    orient_new_spheres();
+}
+
+} // namespace eccentra::rolling

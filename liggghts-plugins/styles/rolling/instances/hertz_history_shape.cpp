@@ -1,0 +1,11 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Compiles model hertz tangential history rolling_friction shape.
+#include "styles/entry/style_registry.h"
+#include "styles/rolling/register_contact_model.h"
+
+namespace {
+const eccentra::rolling::RegisterHertzHistory<LIGGGHTS::ContactModels::ROLLING_SHAPE> registration("shape");
+const eccentra::host::RegisterWords words("rolling_friction", "shape",
+                                          "eq (19) with mu_r + mu_shape: form limited|directional|epsd");
+} // namespace

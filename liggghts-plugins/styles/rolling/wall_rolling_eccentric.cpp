@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// rolling_friction eccentric at our walls: eq (32) with the shape that pair_style gives the spheres.
+#include "styles/rolling/fix_sphere_orientation.h"
+#include "styles/rolling/wall_rolling.h"
+
+#include <stdexcept>
+
+namespace eccentra::rolling {
+namespace {
+
+class EccentricWallRolling : public cluster::WallRolling {
+ public:
+  void read_words(const std::vector<std::string>& words, std::size_t& at) override {
+    if (at >= words.size())
+      return;
+    if (words[at] == "shape")
+      throw std::invalid_argument(
+          "the shape belongs to the particles: give 'shape ...' in pair_style, not at the wall");
+    if (words[at] != "rockingDamping")
+      return;
+    if (at + 1 >= words.size() || (words[at + 1] != "on" && words[at + 1] != "off"))
+      throw std::invalid_argument("rockingDamping must be on or off, not '" +
+                                  (at + 1 < words.size() ? words[at + 1] : std::string()) + "'");
+    damped_ = words[at + 1] == "on";
+    at += 2;
+  }
+
+  void init(LAMMPS_NS::LAMMPS* lmp) override {
+    spheres_ = FixSphereOrientation::find(lmp);
+    if (!spheres_)
+      throw std::invalid_argument("rolling_friction eccentric takes the shape from pair_style: give pair_style gran "
+                                  "... rolling_friction eccentric shape ..., too");
+  }
+
+  Eigen::Vector3d torque(const cluster::WallRollingContact& contact) override {
+    const double* const q = spheres_->orientation(contact.atom);
+    const double depth = contact.elastic_normal / (contact.stiffness * contact.lever);
+    const ContactLoad load{contact.normal_force, damped_ ? contact.normal_damping * contact.lever : 0.0,
+                           contact.normal.cross(contact.angular_velocity)};
+    return contact.lever * turned_moment(spheres_->shape(), {q[0], q[1], q[2], q[3]}, -contact.normal, depth, load)
+                               .cross(contact.normal);
+  }
+
+ private:
+  bool damped_ = true;
+  FixSphereOrientation* spheres_ = nullptr;
+};
+
+const cluster::RegisterWallRolling record("eccentric", [] { return std::make_unique<EccentricWallRolling>(); });
+
+} // namespace
+} // namespace eccentra::rolling

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// rolling_friction shape at walls: eq (19) with the coefficient of eq (33), in the three forms of the pair model.
+#include "contact/rolling_torque.h"
+#include "styles/rolling/coefficients.h"
+#include "styles/rolling/fix_rolling_limited.h"
+#include "styles/rolling/wall_rolling.h"
+
+#include "force.h"
+#include "lammps.h"
+#include "property_registry.h"
+#include "update.h"
+
+#include <cstdlib>
+#include <stdexcept>
+
+namespace eccentra::cluster {
+
+namespace {
+
+class ShapeRolling : public WallRolling {
+ public:
+  void read_words(const std::vector<std::string>& words, std::size_t& at) override {
+    if (at >= words.size())
+      return;
+    const std::string& word = words[at];
+    if (word != "form" && word != "torsionTorque" && word != "rollingDampingRatio")
+      return;
+    if (at + 1 >= words.size())
+      throw std::invalid_argument("the line ends where a value for '" + word + "' was expected");
+    const std::string& value = words[at + 1];
+    if (word == "form")
+      read_form(value);
+    else if (word == "torsionTorque")
+      read_torsion(value);
+    else
+      read_damping(value);
+    at += 2;
+  }
+
+  void init(LAMMPS_NS::LAMMPS* lmp) override {
+    lmp_ = lmp;
+    PropertyRegistry& registry = lmp->force->registry;
+    const char* caller = "wall/gran/cluster rolling_friction shape";
+    registry.registerProperty("eccentraRollingFriction", &rolling::create_rolling_coefficient);
+    registry.registerProperty("eccentraShapeRollingFriction", &rolling::create_shape_coefficient);
+    registry.connect("eccentraRollingFriction", mu_r_, caller);
+    registry.connect("eccentraShapeRollingFriction", mu_shape_, caller);
+    if (form_ != Form::limited)
+      return;
+    rolling::FixRollingLimited* fix = rolling::FixRollingLimited::find(lmp);
+    if (!fix)
+      throw std::invalid_argument(
+          "rolling_friction shape form limited at a wall needs the same form in pair_style (with "
+          "coefficients 0 where the particles have none): or use form epsd or directional");
+    limiter_ = &fix->limiter();
+  }
+
+  Eigen::Vector3d torque(const WallRollingContact& contact) override {
+    const double coefficient = rolling::effective_coefficient(mu_r_[contact.atom_type][contact.wall_type],
+                                                              mu_shape_[contact.atom_type][contact.wall_type]);
+    const double cap = rolling::torque_cap(coefficient, contact.lever, contact.elastic_normal);
+    const Eigen::Vector3d spin =
+        torsion_ ? contact.angular_velocity : rolling::rolling_part(contact.angular_velocity, contact.normal);
+    if (form_ == Form::directional)
+      return rolling::directional_torque(spin, cap);
+    Eigen::Map<Eigen::Vector3d> memory(contact.memory);
+    const Eigen::Vector3d held = torsion_ ? Eigen::Vector3d(memory) : rolling::rolling_part(memory, contact.normal);
+    if (form_ == Form::limited)
+      return limited(contact, rolling::bounded(held, cap), cap);
+    constexpr double solid_sphere_about_contact = 1.4; // 2/5 m r^2 + m r^2
+    const rolling::SpringDashpot torque = rolling::spring_dashpot(
+        held, spin, rolling::rolling_stiffness(contact.stiffness, coefficient, contact.lever), cap,
+        solid_sphere_about_contact * contact.mass * contact.lever * contact.lever, damping_ratio_, lmp_->update->dt);
+    if (contact.advance)
+      memory = torque.spring;
+    return torque.total;
+  }
+
+ private:
+  enum class Form { limited, directional, epsd };
+
+  void read_form(const std::string& value) {
+    if (value == "limited")
+      form_ = Form::limited;
+    else if (value == "directional")
+      form_ = Form::directional;
+    else if (value == "epsd")
+      form_ = Form::epsd;
+    else
+      throw std::invalid_argument("form must be limited, directional or epsd, not '" + value + "'");
+  }
+  void read_torsion(const std::string& value) {
+    if (value != "on" && value != "off")
+      throw std::invalid_argument("torsionTorque must be on or off, not '" + value + "'");
+    torsion_ = value == "on";
+  }
+  void read_damping(const std::string& value) {
+    char* end = nullptr;
+    damping_ratio_ = std::strtod(value.c_str(), &end);
+    if (end == value.c_str() || *end || !(damping_ratio_ >= 0.0) || !std::isfinite(damping_ratio_))
+      throw std::invalid_argument("rollingDampingRatio must be a number >= 0, not '" + value + "'");
+  }
+
+  /// The torque that the contact holds already; the limiter changes it once the torques of all contacts are known.
+  Eigen::Vector3d limited(const WallRollingContact& contact, const Eigen::Vector3d& held, double cap) {
+    rolling::LimitedContact& reported = limiter_->add_wall(contact.atom, cap, contact.wall_spin);
+    reported.normal = torsion_ ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : contact.normal;
+    reported.torque = held;
+    reported.memory = contact.advance ? contact.memory : nullptr;
+    return held;
+  }
+
+  Form form_ = Form::limited;
+  bool torsion_ = true;
+  double damping_ratio_ = 0.3; // Ai et al. (2011)
+  LAMMPS_NS::LAMMPS* lmp_ = nullptr;
+  double** mu_r_ = nullptr;
+  double** mu_shape_ = nullptr;
+  rolling::RollingLimiter* limiter_ = nullptr;
+};
+
+const RegisterWallRolling record("shape", [] { return std::make_unique<ShapeRolling>(); });
+
+} // namespace
+
+} // namespace eccentra::cluster

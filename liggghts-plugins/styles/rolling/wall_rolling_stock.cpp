@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// LIGGGHTS's own spring models of rolling friction at our walls: its code, given the spin relative to the wall.
+#include "styles/rolling/wall_rolling.h"
+
+#include <mpi.h>
+
+#include "contact_models.h"
+
+#include "force.h"
+#include "lammps.h"
+#include "settings.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace eccentra::rolling {
+namespace {
+
+namespace host = LIGGGHTS::ContactModels;
+
+constexpr int kKept = 3; ///< values that WallRollingContact::memory has: the torque of the spring
+constexpr int kMost = 8; ///< values that a model may ask for (luding: a second torque, for torsion, which is off)
+
+/// Counts the values of history that a model asks for.
+class History : public LIGGGHTS::IContactHistorySetup {
+ public:
+  int add_history_value(std::string, std::string) override { return size_++; }
+
+ private:
+  int size_ = 0;
+};
+
+/// Stands in for the contact model around a rolling model. Hertz has no adhesion: kc and fo, which luding reads, are 0.
+class Surroundings : public host::ContactModelBase {
+ public:
+  explicit Surroundings(LAMMPS_NS::LAMMPS* lmp) : ContactModelBase(lmp, true) {
+    add_history_offset("kc_offset", kMost);
+    add_history_offset("fo_offset", kMost);
+  }
+  void tally_pp(double, int, int, int) override {}
+  void tally_pw(double, int, int, int) override {}
+};
+
+template <int Rolling> class StockWallRolling : public cluster::WallRolling {
+ public:
+  /// `option`: the one on/off word that may follow, or null.
+  explicit StockWallRolling(const char* option) : option_(option) {}
+
+  void read_words(const std::vector<std::string>& words, std::size_t& at) override {
+    if (!option_ || at >= words.size() || words[at] != option_)
+      return;
+    if (at + 1 >= words.size() || (words[at + 1] != "on" && words[at + 1] != "off"))
+      throw std::invalid_argument(std::string(option_) + " must be on or off, not '" +
+                                  (at + 1 < words.size() ? words[at + 1] : "") + "'");
+    value_ = words[at + 1];
+    at += 2;
+  }
+
+  void init(LAMMPS_NS::LAMMPS* lmp) override {
+    History history;
+    surroundings_ = std::make_unique<Surroundings>(lmp);
+    model_ = std::make_unique<host::RollingModel<Rolling>>(lmp, &history, surroundings_.get());
+    Settings settings(lmp);
+    model_->registerSettings(settings);
+    std::string words[] = {option_ ? option_ : "", value_};
+    char* arg[] = {words[0].data(), words[1].data()};
+    settings.parseArguments(option_ ? 2 : 0, arg);
+    model_->postSettings(&history, surroundings_.get());
+    model_->connectToProperties(lmp->force->registry);
+  }
+
+  Eigen::Vector3d torque(const cluster::WallRollingContact& contact) override {
+    double history[kMost + 1] = {};
+    std::copy_n(contact.memory, kKept, history);
+    host::SurfacesIntersectData data{};
+    data.is_wall = true;
+    data.i = contact.atom;
+    data.itype = contact.atom_type;
+    data.jtype = contact.wall_type;
+    data.radi = contact.lever;
+    data.mi = data.meff = contact.mass;
+    data.kn = contact.stiffness;
+    data.kt = contact.tangential_stiffness;
+    data.gamman = contact.normal_damping;
+    data.gammat = contact.tangential_damping;
+    data.Fn = contact.normal_force;
+    data.deltan = contact.elastic_normal / contact.stiffness;
+    // Stock scales the spin: lever of the contact point over the distance from the wall.
+    const Eigen::Vector3d spin =
+        contact.angular_velocity * ((contact.lever - 0.5 * data.deltan) / (contact.lever - data.deltan));
+    data.wr1 = spin[0];
+    data.wr2 = spin[1];
+    data.wr3 = spin[2];
+    for (int k = 0; k < 3; ++k)
+      data.en[k] = contact.normal[k];
+    data.computeflag = 1;
+    data.shearupdate = contact.advance;
+    data.contact_history = history;
+    host::ForceData on_particle;
+    host::ForceData on_wall;
+    model_->surfacesIntersect(data, on_particle, on_wall);
+    if (contact.advance)
+      std::copy_n(history, kKept, contact.memory);
+    return {on_particle.delta_torque[0], on_particle.delta_torque[1], on_particle.delta_torque[2]};
+  }
+
+ private:
+  const char* option_;
+  std::string value_ = "off";
+  std::unique_ptr<Surroundings> surroundings_;
+  std::unique_ptr<host::RollingModel<Rolling>> model_;
+};
+
+template <int Rolling> cluster::WallRollingCreator creator(const char* option) {
+  return [option] { return std::make_unique<StockWallRolling<Rolling>>(option); };
+}
+
+const cluster::RegisterWallRolling epsd("epsd", creator<host::ROLLING_EPSD>("torsionTorque"));
+const cluster::RegisterWallRolling epsd2("epsd2", creator<host::ROLLING_EPSD2>("torsionTorque"));
+const cluster::RegisterWallRolling epsd3("epsd3", creator<host::ROLLING_EPSD3>("torsionTorque"));
+const cluster::RegisterWallRolling luding("luding", creator<host::ROLLING_LUDING>(nullptr));
+
+} // namespace
+} // namespace eccentra::rolling

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A coupled run from its dictionary to its end, over either link.
+#include "coupled/coupledRun.H"
+
+#include "coupled/demHost.h"
+#include "coupled/fluidCheckpoint.H"
+#include "coupled/statedTerms.H"
+#include "coupled/toldForces.H"
+#include "support/arithmeticFault.H"
+#include "support/hostGuards.H"
+#include "support/inputError.H"
+
+#include "link/socket/fluid_server.h"
+#include "link/stop_signal.h"
+
+#include "OSspecific.H"
+#include "Time.H"
+#include "cyclicPolyPatch.H"
+#include "processorCyclicPolyPatch.H"
+
+#include <mpi.h>
+
+#include <cfenv>
+
+namespace eccentra {
+
+using namespace Foam;
+
+namespace {
+
+constexpr unsigned kOffered =
+    fluid::kVelocity | fluid::kFraction | fluid::kPressureGradient | fluid::kStressDivergence | fluid::kVorticity;
+/// Meetings from one report to the next.
+constexpr label kReportEvery = 10;
+
+IOobject propertiesFile(const Time& time) {
+  return IOobject("couplingProperties", time.constant(), time, IOobject::MUST_READ, IOobject::NO_WRITE);
+}
+
+bool readMomentum(const dictionary& properties) {
+  const word momentum(properties.getOrDefault<word>("momentum", "semiImplicit"));
+  if (momentum != "semiImplicit" && momentum != "explicit")
+    throw inputError(properties, "momentum", momentum, "use semiImplicit or explicit");
+  return momentum == "semiImplicit";
+}
+
+exchange::VoidFraction readVoidFraction(const dictionary& properties) {
+  const word method(properties.getOrDefault<word>("voidFraction", "diffusion"));
+  try {
+    return exchange::voidFractionOf(method);
+  } catch (const std::invalid_argument& problem) {
+    throw inputError(properties.name() + ": " + problem.what());
+  }
+}
+
+/// Bounding box of the mesh, and the directions in which plane periodic patches repeat it.
+link::Extents extentsOf(const fvMesh& mesh) {
+  link::Extents extents;
+  const boundBox box(mesh.points(), true);
+  for (direction k = 0; k < 3; ++k) {
+    extents.low[k] = box.min()[k];
+    extents.high[k] = box.max()[k];
+  }
+  vector separated(Zero);
+  for (const polyPatch& patch : mesh.boundaryMesh())
+    if (isA<cyclicPolyPatch>(patch) || isA<processorCyclicPolyPatch>(patch))
+      for (const vector& area : patch.faceAreas())
+        separated = max(separated, cmptMag(area) / mag(area));
+  reduce(separated, maxOp<vector>());
+  for (direction k = 0; k < 3; ++k)
+    extents.periodic[k] = separated[k] > 0.5;
+  return extents;
+}
+
+} // namespace
+
+coupledRun::coupledRun(fvMesh& mesh, bool verbose, bool resume)
+    : mesh_(mesh), time_(const_cast<Time&>(mesh.time())), properties_(propertiesFile(mesh.time())), verbose_(verbose),
+      resume_(resume), traps_(fegetexcept()), semiImplicit_(readMomentum(properties_)),
+      method_(readVoidFraction(properties_)), timeStep_(time_), interval_(time_.controlDict().get<scalar>("deltaT")) {}
+
+coupledRun::~coupledRun() = default;
+
+bool coupledRun::wanted(const Time& time) {
+  return isFile(time.globalPath() / time.constant() / "couplingProperties");
+}
+
+label coupledRun::reportEvery() const {
+  return properties_.getOrDefault<label>("report", kReportEvery);
+}
+
+void coupledRun::run() {
+  refuseUnknownKeywords(properties_, {"link", "demScript", "demLog", "voidFraction", "length", "diffusionSteps",
+                                      "momentum", "mostSolid", "fractionFloor", "tolerance", "report", "runIn",
+                                      "address", "keys", "timeout", "wait"});
+  const word link(properties_.getOrDefault<word>("link", "solver"));
+  if (link != "solver" && link != "socket")
+    throw inputError(properties_, "link", link, "use solver or socket");
+  if (reportEvery() < 1)
+    throw inputError(properties_, "report", reportEvery(), "give a whole number of meetings, at least 1");
+  const runningMpi mpi;
+  link::catch_stop_signals("annulusFoam");
+  if (link == "solver")
+    hostScript();
+  else
+    serveSocket();
+  time_.writeNow();
+}
+
+void coupledRun::hostScript() {
+  const fileName script(properties_.get<fileName>("demScript"));
+  // The script's own paths are relative to the case.
+  if (!chDir(time_.globalPath()))
+    throw inputError("cannot enter the case folder " + time_.globalPath());
+  if (!isFile(script))
+    throw inputError(properties_, "demScript", script, "give a LIGGGHTS input script in the case folder");
+  link::hosting_solver() = this;
+  const trapping off(0);
+  run_dem_script(script, properties_.getOrDefault<fileName>("demLog", "log.liggghts"),
+                 resume_ ? link::script_variables(newestCheckpoint()) : std::vector<std::string>());
+  link::hosting_solver() = nullptr;
+  if (!flow_)
+    throw inputError(properties_, "demScript", script, "it never ran a fix fluid/couple with link solver: add one");
+}
+
+void coupledRun::serveSocket() {
+  const fileName address(properties_.get<fileName>("address"));
+  link::Patience patience;
+  patience.silence = properties_.getOrDefault<scalar>("timeout", patience.silence);
+  patience.arrival = properties_.getOrDefault<scalar>("wait", patience.arrival);
+  // A relative Unix path is relative to the case.
+  if (!chDir(time_.globalPath()))
+    throw inputError("cannot enter the case folder " + time_.globalPath());
+  try {
+    link::FluidServer server(MPI_COMM_WORLD, {address, properties_.getOrDefault<fileName>("keys", "")}, patience,
+                             mesh_.nCells());
+    Info << "waiting for a DEM script with fix fluid/couple link socket " << address << endl;
+    server.serve(*this);
+  } catch (const link::Refusal&) {
+    // What the flow has reached is kept.
+    if (exchange_)
+      time_.writeNow();
+    throw;
+  }
+  if (!flow_)
+    throw inputError(properties_, "address", address, "the DEM script that came there never ran its fix fluid/couple");
+}
+
+link::FluidTerms coupledRun::agree(const link::DemTerms& dem) {
+  const trapping on(traps_);
+  // A checkpoint brings fields of its own: the flow is made from those of the beginning, not from a folder of a later
+  // time that a full disk may have left in pieces.
+  if (!flow_)
+    fluidCheckpoint::begin(time_, resume_ || dem.resumes.step >= 0);
+  if (!flow_)
+    flow_ = std::make_unique<averagedFlow>(mesh_, averagedFlow::particles::coupled);
+  endOnArithmeticFault(
+      "annulusFoam: error: the run has blown up (a division by zero, an overflow or a value that is no number): reduce "
+      "deltaT and the DEM time step together, or every, and go on from the last checkpoint with -resume\n");
+  link::FluidTerms terms;
+  terms.time_step = interval_;
+  terms.domain = extentsOf(mesh_);
+  terms.offered = kOffered;
+  terms.fluid_density = flow_->rho();
+  terms.rheology = statedRheology(flow_->rheology(), flow_->rho());
+  stateGravity(mesh_, terms);
+  terms.layout = fluidCheckpoint::layoutOf(mesh_);
+  const std::string text = link::disagreement(dem, terms);
+  if (!text.empty())
+    throw link::Refusal(text);
+  dem_ = dem;
+  if (dem.resumes.step >= 0)
+    resumeFrom(dem.resumes);
+  return terms;
+}
+
+} // namespace eccentra

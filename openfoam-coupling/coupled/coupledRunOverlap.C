@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Both sides at the same time: from one meeting to the next the flow takes its step with the particles and impulses of
+// the first one, while DEM runs the same interval with the samples of the first one.
+#include "coupled/coupledRun.H"
+
+#include "coupled/toldForces.H"
+#include "support/hostGuards.H"
+#include "support/stopwatch.H"
+
+#include "link/stop_signal.h"
+
+#include "Time.H"
+
+#include <algorithm>
+
+namespace eccentra {
+
+using namespace Foam;
+
+void coupledRun::advance() {
+  if (!dem_.overlap || overlap_.ahead || !exchange_)
+    throw link::Refusal("the DEM side spoke out of turn: install the same release of Eccentra on both sides");
+  const trapping on(traps_);
+  overlap_.ahead = true;
+  stopwatch watch;
+  setStressShare();
+  const scalarField before(flow_->alpha().primitiveField());
+  const scalar left = timeStep_.partOf(interval_, flow_->CourantNo());
+  ++time_;
+  setFraction(before, overlap_.after, 1 - left / interval_);
+  overlap_.told = std::make_unique<toldForces>(*flow_, requests_.asked());
+  const bool due = takeSteps(left, before, overlap_.after, *overlap_.told);
+  overlap_.fields = {};
+  overlap_.told->complete(flow_->alpha(), time_.deltaTValue() / interval_, overlap_.fields);
+  overlap_.seconds = watch.lap();
+  if (due)
+    time_.writeNow();
+}
+
+// The flow received alpha f of a shared force density f, and the particles were to get (1 - alpha) f with the fraction
+// that the flow knew; where they are now they get another part of it. The difference goes into the next step.
+void coupledRun::returnDifference(const scalarField& assumedSolid, const exchange::FlowFields& fields) {
+  if (assumedSolid.empty())
+    return;
+  const scalarField more((solid_ - assumedSolid) / flow_->rho());
+  vectorField& force = flow_->particleForce().primitiveFieldRef();
+  // The force on a particle is -V grad p, and V div tau.
+  if (fields.pressureGradient)
+    force += more * *fields.pressureGradient;
+  if (fields.stressDivergence)
+    force -= more * *fields.stressDivergence;
+  flow_->particleForce().correctBoundaryConditions();
+}
+
+int coupledRun::meetAhead(const link::Meeting& meeting, const link::ParticleArrays& particles,
+                          const fluid::FluidSamples& samples) {
+  if (overlap_.ahead != (meeting.elapsed > 0))
+    throw link::Refusal("the DEM side spoke out of turn: install the same release of Eccentra on both sides");
+  overlap_.ahead = false;
+  const bool first = !exchange_;
+  if (first)
+    begin(meeting);
+  const bool news = requests_.changes(meeting);
+  follow(meeting);
+  stopwatch watch;
+  PartSeconds seconds(meeting);
+  seconds.fluid = overlap_.seconds;
+  seconds.together = std::max(seconds.dem.wall, seconds.fluid.wall);
+
+  exchange::FlowFields fields = overlap_.fields;
+  // Quantities that nobody asked for while the flow advanced are those of its end.
+  std::unique_ptr<toldForces> present;
+  if (news || !overlap_.told) {
+    present = std::make_unique<toldForces>(*flow_, meeting.needed);
+    present->complete(flow_->alpha(), 1, fields);
+  }
+  if (!samples.pressure_gradient)
+    fields.pressureGradient = nullptr;
+  if (!samples.stress_divergence)
+    fields.stressDivergence = nullptr;
+  const tmp<volVectorField> velocity(flow_->velocityOfFluxes());
+  fields.velocity = &velocity();
+  fields.fraction = &flow_->alpha();
+  const scalarField assumedSolid(solid_);
+  const bool start = first && time_.value() <= SMALL;
+  // What the flow gives reaches the particles an interval later still: it is told as it is
+  // (docs/couplingProperties.md).
+  scalarField unused;
+  overlap_.after = receive(meeting, particles, start, unused);
+  if (start) {
+    setFraction(overlap_.after, overlap_.after, 1);
+    flow_->resetFractionHistory();
+  }
+  exchange_->sample(fields, particles, samples);
+  if (meeting.elapsed > 0)
+    returnDifference(assumedSolid, fields);
+  seconds.exchange = watch.lap();
+  const vector onItsWay(interval_ * flow_->rho() *
+                        gSum(vectorField(mesh_.V() * flow_->particleForce().primitiveField())));
+  report_->add(*flow_, *exchange_, meeting, seconds, onItsWay);
+  return returnReduce(label(link::stop_signal()), maxOp<label>());
+}
+
+} // namespace eccentra

@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Formats the balances and costs of a coupled run.
+#include "coupled/couplingReport.H"
+
+#include "support/inputError.H"
+
+#include "OSspecific.H"
+#include "Time.H"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+namespace eccentra {
+
+using namespace Foam;
+
+namespace {
+
+/// Cells with more solid than this belong to the bed.
+constexpr double kBedSolid = 0.3;
+/// Gravity across the axis below this part of the whole counts as none: the hole is vertical.
+constexpr double kVertical = 1e-6;
+
+double difference(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return std::sqrt(std::pow(a[0] - b[0], 2) + std::pow(a[1] - b[1], 2) + std::pow(a[2] - b[2], 2));
+}
+
+double relative(double error, double scale) {
+  return scale > 0 ? error / scale : 0.0;
+}
+
+vector vectorOf(const double* v) {
+  return vector(v[0], v[1], v[2]);
+}
+
+} // namespace
+
+PartSeconds::PartSeconds(const link::Meeting& meeting) {
+  dem = {meeting.dem_seconds, meeting.dem_seconds - meeting.load.mean_seconds};
+  link.wall = meeting.pack_seconds;
+}
+
+PartSeconds& PartSeconds::operator+=(const PartSeconds& more) {
+  dem += more.dem;
+  fluid += more.fluid;
+  exchange += more.exchange;
+  link += more.link;
+  together += more.together;
+  return *this;
+}
+
+couplingReport::couplingReport(const fvMesh& mesh, const link::DemTerms& dem, int every, const dictionary* earlier)
+    : mesh_(mesh), every_(every), interval_(dem.time_step * dem.interval), stepsPerMeeting_(dem.interval),
+      started_(std::chrono::steady_clock::now()) {
+  const vector gravity(vectorOf(dem.gravity));
+  const vector across(gravity - axis_ * (axis_ & gravity));
+  if (mag(across) > kVertical * mag(gravity))
+    down_ = across / mag(across);
+  scalar lowest = -GREAT;
+  for (const point& p : mesh.points())
+    lowest = max(lowest, p & down_);
+  lowest_ = returnReduce(lowest, maxOp<scalar>());
+  const boundBox box(mesh.points(), true);
+  length_ = box.span() & axis_;
+  if (earlier) {
+    meetings_ = earlier->get<label>("meetings");
+    initially_ = std::llround(earlier->get<scalar>("initially"));
+    before_ = {earlier->get<scalar>("dem"), earlier->get<scalar>("fluid"), earlier->get<scalar>("exchange"),
+               earlier->get<scalar>("link")};
+  }
+  if (Pstream::master())
+    openTable(earlier);
+}
+
+void couplingReport::openTable(const dictionary* earlier) {
+  const fileName folder(mesh_.time().globalPath() / "postProcessing" / "eccentra");
+  mkDir(folder);
+  const std::string file(folder / "coupling.csv");
+  // Rows that the earlier run wrote after its checkpoint come again.
+  std::error_code missing;
+  const auto kept = earlier ? static_cast<std::uintmax_t>(earlier->get<scalar>("tableBytes")) : 0;
+  if (kept > 0 && std::filesystem::file_size(file, missing) >= kept && !missing) {
+    std::filesystem::resize_file(file, kept);
+    csv_ = std::make_unique<std::ofstream>(file, std::ios::app | std::ios::ate);
+    csv_->precision(13);
+    return;
+  }
+  csv_ = std::make_unique<std::ofstream>(file);
+  *csv_ << "time,particles,mean_velocity,pressure_gradient,solid_concentration,solids_flux,com_x,com_y,com_z,com_"
+           "height,"
+           "bed_height,bed_area,fastest_particle,least_fraction,courant,continuity_error,volume_error,impulse_error,"
+           "pressure_error,dem_seconds,fluid_seconds,exchange_seconds,link_seconds,"
+           "inserted,left,inserted_mass,mass,global_continuity_error,"
+           "momentum_x,momentum_y,momentum_z,fastest_fluid\n";
+  csv_->precision(13);
+}
+
+std::array<double, 4> couplingReport::parts() const {
+  return {before_[0] + total_.dem.wall, before_[1] + total_.fluid.wall, before_[2] + total_.exchange.wall,
+          before_[3] + total_.link.wall};
+}
+
+dictionary couplingReport::state() const {
+  dictionary state;
+  state.add("meetings", label(meetings_));
+  state.add("initially", scalar(initially_));
+  const std::array<double, 4> parts = this->parts();
+  state.add("dem", parts[0]);
+  state.add("fluid", parts[1]);
+  state.add("exchange", parts[2]);
+  state.add("link", parts[3]);
+  state.add("tableBytes", csv_ ? scalar(csv_->tellp()) : 0.0);
+  return state;
+}
+
+// Between inlet and outlet the mean pressures of the two ends tell what the section costs.
+double couplingReport::pressureDrop(const averagedFlow& flow) const {
+  const label inlet = mesh_.boundaryMesh().findPatchID("inlet");
+  const label outlet = mesh_.boundaryMesh().findPatchID("outlet");
+  // Periodic ends cost nothing by themselves, and are empty where they lie between ranks.
+  if (flow.drivingPressureGradient() != 0 || inlet < 0 || outlet < 0 || mesh_.boundaryMesh()[inlet].coupled())
+    return flow.drivingPressureGradient();
+  const auto mean = [&](label patch) {
+    const scalarField& areas = mesh_.magSf().boundaryField()[patch];
+    return gSum(scalarField(areas * flow.p().boundaryField()[patch])) / gSum(areas);
+  };
+  return flow.rho() * (mean(inlet) - mean(outlet)) / length_;
+}
+
+// What is on its way from one side to the other counts: the force that semi-implicit drag held back, and the pressure
+// and viscous forces that the particles receive until the next meeting or are still owed.
+vector couplingReport::totalMomentum(averagedFlow& flow, const exchange::particleExchange& exchange,
+                                     const link::Meeting& meeting) const {
+  const scalar step = mesh_.time().deltaTValue();
+  const vectorField& withheld = flow.withheldForce().primitiveField();
+  const vectorField perVolume(flow.alpha().primitiveField() * flow.U().primitiveField() + step * withheld);
+  const vector fluid(flow.rho() * gSum(vectorField(mesh_.V() * perVolume)));
+  return vectorOf(meeting.totals.momentum) + fluid + interval_ * vectorOf(exchange.balance().pendingForce.data());
+}
+
+couplingReport::Bed couplingReport::bed(const volScalarField& alpha) const {
+  Bed bed;
+  scalar highest = lowest_;
+  scalar volume = 0;
+  forAll(alpha, celli) {
+    if (1.0 - alpha[celli] < kBedSolid)
+      continue;
+    highest = min(highest, mesh_.C()[celli] & down_);
+    volume += mesh_.V()[celli];
+  }
+  bed.height = lowest_ - returnReduce(highest, minOp<scalar>());
+  bed.area = returnReduce(volume, sumOp<scalar>()) / length_;
+  bed.leastFraction = gMin(alpha.primitiveField());
+  return bed;
+}
+
+void couplingReport::add(averagedFlow& flow, const exchange::particleExchange& exchange, const link::Meeting& meeting,
+                         const PartSeconds& seconds, const vector& onItsWay) {
+  total_ += seconds;
+  // Crossing between ranks is the link's work, wherever it is done.
+  const exchange::guests::Traffic& traffic = exchange.present().traffic();
+  const Seconds crossing{traffic.seconds - traffic_.seconds, traffic.waited - traffic_.waited};
+  total_.exchange += {-crossing.wall, -crossing.waited};
+  total_.link += crossing;
+  traffic_ = traffic;
+  ++meetingsHere_;
+  steps_ += meeting.elapsed > 0;
+  demLoad_.add(meeting);
+  points_ += double(exchange.present().here().size());
+  const bool last = meeting.steps_total > 0 && meeting.steps_done >= meeting.steps_total;
+  if (meetings_++ % every_ == 0 || last)
+    write(flow, exchange, meeting, onItsWay);
+}
+
+void couplingReport::write(averagedFlow& flow, const exchange::particleExchange& exchange, const link::Meeting& meeting,
+                           const vector& onItsWay) {
+  const exchange::ExchangeBalance& balance = exchange.balance();
+  const link::DemTotals& totals = meeting.totals;
+  const Bed bed = this->bed(flow.alpha());
+  const double solid = totals.volume > 0 ? totals.volume : 1.0;
+  const vector centre(vectorOf(totals.volume_position) / solid);
+  const double meanVelocity = flow.superficialVelocity() & axis_;
+  if (!std::isfinite(meanVelocity) || !std::isfinite(totals.fastest))
+    throw inputError("the coupled run has blown up at t = " + mesh_.time().timeName() + " s: the " +
+                     (std::isfinite(totals.fastest) ? "fluid's velocity" : "particles' velocity") +
+                     " is no number; reduce deltaT and the DEM time step together, or every");
+  const double courant = flow.CourantNo();
+  const double continuity = flow.continuityError();
+  const vector momentum(totalMomentum(flow, exchange, meeting) + onItsWay);
+  const double fastestFluid = gMax(mag(flow.U().primitiveField())());
+  const double globalContinuity = flow.globalContinuityError();
+  if (initially_ < 0)
+    initially_ = totals.particles - totals.inserted;
+  const std::int64_t left = initially_ + totals.inserted - totals.particles;
+  const double gradient = pressureDrop(flow);
+  const double concentration = totals.volume / gSum(mesh_.V());
+  const double flux = (vectorOf(totals.volume_velocity) & axis_) / length_;
+  const double volumeError = relative(std::abs(balance.meshVolume - balance.particleVolume), balance.particleVolume);
+  const double impulseError = relative(difference(balance.meshImpulse, balance.particleImpulse), balance.impulseScale);
+  const double pressureError =
+      relative(difference(balance.meshPressureForce, balance.particlePressureForce), balance.pressureForceScale);
+  std::array<double, 4> parts = this->parts();
+  for (double& part : parts)
+    part = returnReduce(part, sumOp<scalar>()) / Pstream::nProcs();
+  if (!balance.fits)
+    Info << "warning: more solid than mostSolid allows in some cells: take smaller particles per cell, or voidFraction "
+            "diffusion"
+         << endl;
+  if (!Pstream::master())
+    return;
+  *csv_ << mesh_.time().value() << ',' << totals.particles << ',' << meanVelocity << ',' << gradient << ','
+        << concentration << ',' << flux << ',' << centre.x() << ',' << centre.y() << ',' << centre.z() << ','
+        << (totals.particles ? lowest_ - (centre & down_) : 0.0) << ',' << bed.height << ',' << bed.area << ','
+        << totals.fastest << ',' << bed.leastFraction << ',' << courant << ',' << continuity << ',' << volumeError
+        << ',' << impulseError << ',' << pressureError;
+  for (const double part : parts)
+    *csv_ << ',' << part;
+  *csv_ << ',' << totals.inserted << ',' << left << ',' << totals.inserted_mass << ',' << totals.mass << ','
+        << globalContinuity << ',' << momentum.x() << ',' << momentum.y() << ',' << momentum.z() << ',' << fastestFluid
+        << std::endl;
+
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  const double done = meeting.steps_total > 0 ? double(meeting.steps_done) / double(meeting.steps_total) : 0.0;
+  std::printf("t %.4g s  %3.0f %%  left %.0f s | %lld particles, U %.4g m/s, dp/dz %.4g Pa/m, flux %.3g m3/s, fastest "
+              "%.3g m/s, alpha >= %.3f | errors: volume %.1e impulse %.1e pressure %.1e continuity %.1e\n",
+              mesh_.time().value(), 100 * done, done > 0 ? elapsed * (1 - done) / done : 0.0,
+              static_cast<long long>(totals.particles), meanVelocity, gradient, flux, totals.fastest, bed.leastFraction,
+              volumeError, impulseError, pressureError, continuity);
+  std::fflush(stdout);
+}
+
+void couplingReport::finish() const {
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  const auto mean = [](double part) { return returnReduce(part, sumOp<scalar>()) / Pstream::nProcs(); };
+  const auto line = [&](const char* name, const Seconds& part) {
+    const double wall = mean(part.wall), waited = mean(part.waited);
+    if (Pstream::master())
+      std::printf("  %-10s %9.2f s %5.1f %%   of these waiting for other ranks %5.1f %%\n", name, wall,
+                  100 * wall / elapsed, wall > 0 ? 100 * waited / wall : 0.0);
+    return wall;
+  };
+  if (Pstream::master())
+    std::printf("cost by part, mean over %d rank(s)\n", Pstream::nProcs());
+  const double dem = line("DEM", total_.dem), fluid = line("fluid", total_.fluid);
+  const double exchange = line("exchange", total_.exchange), link = line("link", total_.link);
+  const double together = mean(total_.together);
+  if (Pstream::master()) {
+    if (together > 0)
+      std::printf("  %-10s %9.2f s %5.1f %%   DEM and fluid at the same time\n", "both", together,
+                  100 * together / elapsed);
+    const double rest = elapsed - (together > 0 ? together : dem + fluid) - exchange - link;
+    std::printf("  %-10s %9.2f s %5.1f %%\n", "rest", rest, 100 * rest / elapsed);
+  }
+  printLoad();
+  printLink(link, dem, fluid);
+}
+
+// The link beside what it links: a step of either side.
+void couplingReport::printLink(double link, double dem, double fluid) const {
+  const double sent = returnReduce(traffic_.bytes, sumOp<scalar>()),
+               most = returnReduce(traffic_.bytes, maxOp<scalar>());
+  if (!Pstream::master() || steps_ == 0)
+    return;
+  const double meeting = link / meetingsHere_, demStep = dem / (double(steps_) * stepsPerMeeting_),
+               fluidStep = fluid / steps_;
+  std::printf("link: %.3f ms a meeting, %.3g DEM steps or %.3g fluid intervals; %.3g kB a meeting between ranks of the "
+              "fluid, at most %.3g from one rank\n",
+              1e3 * meeting, demStep > 0 ? meeting / demStep : 0.0, fluidStep > 0 ? meeting / fluidStep : 0.0,
+              1e-3 * sent / meetingsHere_, 1e-3 * most / meetingsHere_);
+  std::fflush(stdout);
+}
+
+// What a rank computes besides waiting tells how even the division is.
+void couplingReport::printLoad() const {
+  const auto uneven = [](double mine) {
+    const double sum = returnReduce(mine, sumOp<scalar>());
+    return sum > 0 ? returnReduce(mine, maxOp<scalar>()) * Pstream::nProcs() / sum : 1.0;
+  };
+  const double cells = uneven(mesh_.nCells()), points = uneven(points_);
+  const double fluid = uneven(total_.fluid.wall - total_.fluid.waited);
+  const double exchange = uneven(total_.exchange.wall - total_.exchange.waited);
+  if (!Pstream::master())
+    return;
+  std::printf("%s", demLoad_.table().c_str());
+  std::printf(
+      "load of %d rank(s) of the fluid, fullest or busiest over mean: cells %.3f, particles %.3f, computing the "
+      "flow %.3f, the exchange %.3f\n",
+      Pstream::nProcs(), cells, points, fluid, exchange);
+  std::fflush(stdout);
+}
+
+} // namespace eccentra

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One connection between two programs that carries whole messages and notices when the other side is gone.
+#pragma once
+
+#include "link/socket/address.h"
+#include "link/socket/wire.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace eccentra::link {
+
+/// One end of the link. Waiting sleeps in the kernel. Not for several threads.
+class Channel {
+ public:
+  enum class Side { dem, fluid }; ///< the fluid side binds the address, the DEM side connects to it
+
+  /// Does not wait for the other side. Throws Refusal if the address cannot be used.
+  Channel(Side side, const Address& address, const Patience& patience);
+  ~Channel();
+
+  /// A message in one piece.
+  class Message {
+   public:
+    Message();
+    explicit Message(std::size_t bytes);
+    explicit Message(const wire::Bytes& bytes);
+    ~Message();
+    Message(Message&&) noexcept;
+    Message& operator=(Message&&) noexcept;
+    std::byte* data();
+    wire::View view() const;
+
+   private:
+    friend class Channel;
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+  };
+
+  /// Throws Refusal if the other side is gone.
+  void send(Message message);
+  /// The next message. Waits as long as the other side lives; throws Refusal if it does not come, goes, or refuses.
+  /// While it waits it calls `look` several times a second, which may throw to end the wait.
+  Message receive(const std::function<void()>& look = {});
+  /// Tells the other side why this one goes no further, and closes.
+  void refuse(const std::string& sentence) noexcept;
+  /// Sends what is left and closes.
+  void close() noexcept;
+
+  /// That the fluid side has bound, of a TCP address.
+  std::uint32_t port() const;
+  /// Of the messages that have gone either way.
+  std::uint64_t bytes() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+} // namespace eccentra::link

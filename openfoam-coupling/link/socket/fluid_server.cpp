@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Serves a DEM job that runs apart.
+#include "link/socket/fluid_server.h"
+
+#include "link/ranks.h"
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <type_traits>
+#include <utility>
+
+namespace eccentra::link {
+namespace {
+
+constexpr std::size_t kAnswerHead = wire::kHeaderBytes + wire::kSamplesBytes;
+
+/// Who does not take its answer any more is noticed when its next message is due.
+void send(Channel& channel, Channel::Message message) {
+  try {
+    channel.send(std::move(message));
+  } catch (const Refusal&) {
+    return;
+  }
+}
+
+} // namespace
+
+/// What rank 0 has received, without the rows; the same on every rank.
+struct FluidServer::Command {
+  wire::Kind kind = wire::Kind::farewell;
+  std::size_t count = 0;
+  DemTerms terms;
+  Meeting meeting;
+  CheckpointMark mark;
+};
+
+FluidServer::FluidServer(MPI_Comm ranks, const Address& address, const Patience& patience, std::int32_t cells)
+    : ranks_(ranks), address_(address), patience_(patience) {
+  cells_of_rank_.resize(size_of(ranks));
+  MPI_Allgather(&cells, 1, MPI_INT32_T, cells_of_rank_.data(), 1, MPI_INT32_T, ranks);
+  on_root(ranks_, [&] {
+    channel_ = std::make_unique<Channel>(Channel::Side::fluid, address, patience);
+    return wire::Bytes();
+  });
+}
+
+FluidServer::~FluidServer() = default;
+
+FluidServer::Command FluidServer::next_command() {
+  static_assert(std::is_trivially_copyable_v<Command>, "ranks pass it on as bytes");
+  const wire::Bytes bytes = on_root(ranks_, [&] {
+    message_ = channel_->receive();
+    Command command;
+    command.kind = wire::kind_of(message_.view());
+    if (command.kind == wire::Kind::dem_terms) {
+      command.terms = wire::decode_dem_terms(message_.view());
+    } else if (command.kind == wire::Kind::meeting && agreed_) {
+      const wire::Rows rows = wire::decode_meeting(message_.view(), extents_, command.meeting);
+      wire::check_tickets(rows, extents_, cells_of_rank_);
+      if (command.meeting.needed & ~offered_)
+        throw Refusal(
+            "the DEM side asks for fluid quantities that this solver does not offer: drop the effect that needs "
+            "them from fix fluid/force");
+      if (command.meeting.number != ++meetings_)
+        throw Refusal("the DEM side left out a meeting: install the same release of Eccentra on both sides");
+      command.count = rows.count;
+      command.meeting.pack_seconds += transport_seconds_;
+    } else if (command.kind == wire::Kind::checkpoint && agreed_) {
+      command.mark = wire::decode_checkpoint(message_.view());
+    } else if (command.kind != wire::Kind::run_ended && command.kind != wire::Kind::farewell &&
+               !(command.kind == wire::Kind::advance && agreed_ && overlap_)) {
+      throw Refusal("the DEM side spoke out of turn: install the same release of Eccentra on both sides");
+    }
+    wire::Bytes packed(sizeof command);
+    std::memcpy(packed.data(), &command, sizeof command);
+    return packed;
+  });
+  Command command;
+  std::memcpy(&command, bytes.data(), sizeof command);
+  return command;
+}
+
+void FluidServer::answer_terms(FluidPeer& fluid, const Command& command) {
+  if (agreed_ && command.terms.lanes != lanes_asked_)
+    throw Refusal("the DEM side spoke out of turn: install the same release of Eccentra on both sides");
+  const FluidTerms terms = fluid.agree(command.terms);
+  offered_ = terms.offered;
+  extents_ = command.terms.extents;
+  overlap_ = command.terms.overlap;
+  on_root(ranks_, [&] {
+    channel_->send(Channel::Message(wire::encode(terms)));
+    return wire::Bytes();
+  });
+  if (!agreed_ && command.terms.lanes > 0)
+    open_lanes(command.terms.lanes);
+  lanes_asked_ = command.terms.lanes;
+  agreed_ = true;
+}
+
+void FluidServer::open_lanes(std::uint32_t count) {
+  const std::string why = why_no_lanes(ranks_, Channel::Side::fluid, address_, count);
+  by_lanes_ = why.empty();
+  const std::vector<std::uint32_t> numbers =
+      by_lanes_ ? lanes_.bind(ranks_, address_, patience_, count) : std::vector<std::uint32_t>();
+  on_root(ranks_, [&] {
+    channel_->send(Channel::Message(by_lanes_ ? wire::encode_lanes(numbers) : wire::encode_no_lanes(why)));
+    return wire::Bytes();
+  });
+  if (by_lanes_)
+    lanes_.greet(ranks_, extents_);
+}
+
+std::vector<wire::Rows> FluidServer::rows_of_lanes(const Command& command) {
+  std::vector<wire::Rows> parts;
+  if (channel_)
+    parts.push_back({command.count, message_.view().data + wire::kHeaderBytes + wire::kMeetingBytes});
+  const std::vector<long long> counts = on_all(ranks_, [&](const Look& look) {
+    for (Lane& lane : lanes_) {
+      lane.message = lane.channel->receive(look);
+      parts.push_back(wire::decode_rows(lane.message.view(), extents_, {lane.rank, command.meeting.number}));
+      wire::check_tickets(parts.back(), extents_, cells_of_rank_);
+    }
+    return std::accumulate(parts.begin(), parts.end(), 0LL, [](long long sum, const wire::Rows& rows) {
+      return sum + static_cast<long long>(rows.count);
+    });
+  });
+  if (std::accumulate(counts.begin(), counts.end(), 0LL) != command.meeting.totals.particles)
+    throw Refusal("the ranks of DEM have sent another number of particles than they speak of: install the same release "
+                  "of Eccentra on both sides");
+  return parts;
+}
+
+std::vector<wire::Rows> FluidServer::dealt_rows(const Command& command) {
+  if (command.count != static_cast<std::size_t>(command.meeting.totals.particles))
+    throw Refusal("the DEM side has sent another number of particles than it speaks of: install the same release of "
+                  "Eccentra on both sides");
+  const std::size_t row_bytes = wire::particle_row_bytes(extents_);
+  const Shares shares = even_shares(ranks_, command.count);
+  const int mine = shares.count[rank_of(ranks_)];
+  if (!channel_)
+    rows_.resize(mine * std::max(row_bytes, wire::samples_row_bytes(command.meeting.needed)));
+  const std::byte* const all = channel_ ? message_.view().data + wire::kHeaderBytes + wire::kMeetingBytes : nullptr;
+  scatter_rows(ranks_, all, shares, row_bytes, rows_.data(), mine);
+  return {{static_cast<std::size_t>(mine), channel_ ? all : rows_.data()}};
+}
+
+Channel::Message FluidServer::answer(const Command& command, std::size_t count, int signal) {
+  const unsigned asked = command.meeting.needed;
+  Channel::Message message(kAnswerHead + count * wire::samples_row_bytes(asked));
+  wire::write_samples_head(message.data(), command.meeting.number, count, asked, signal);
+  return message;
+}
+
+void FluidServer::answer_meeting(FluidPeer& fluid, const Command& command) {
+  const double begun = MPI_Wtime();
+  const std::vector<wire::Rows> parts = by_lanes_ ? rows_of_lanes(command) : dealt_rows(command);
+  guests_.load(parts, extents_, command.meeting.needed);
+  const double ready = MPI_Wtime();
+
+  const int signal = fluid.meet(command.meeting, guests_.particles(), guests_.samples());
+
+  const double met = MPI_Wtime();
+  Channel::Message of_root = channel_ ? answer(command, command.count, signal) : Channel::Message();
+  std::byte* const to = channel_ ? of_root.data() + kAnswerHead : rows_.data();
+  auto part = parts.begin();
+  std::size_t first = 0;
+  if (channel_ || !by_lanes_) {
+    guests_.pack_samples(0, part->count, to);
+    first = part++->count;
+  }
+  if (!by_lanes_)
+    gather_rows(ranks_, to, static_cast<int>(first), wire::samples_row_bytes(command.meeting.needed),
+                even_shares(ranks_, command.count), to);
+  for (const Lane& lane : lanes_) {
+    Channel::Message message = answer(command, part->count, signal);
+    guests_.pack_samples(first, part->count, message.data() + kAnswerHead);
+    first += part++->count;
+    send(*lane.channel, std::move(message));
+  }
+  // Before sending: the DEM side begins at once, and may take this processor.
+  transport_seconds_ = MPI_Wtime() - met + ready - begun;
+  if (channel_)
+    send(*channel_, std::move(of_root));
+}
+
+void FluidServer::answer_checkpoint(FluidPeer& fluid, const Command& command) {
+  const std::string place = fluid.checkpoint(command.mark);
+  on_root(ranks_, [&] {
+    channel_->send(Channel::Message(wire::encode_checkpointed(place)));
+    return wire::Bytes();
+  });
+}
+
+void FluidServer::refuse(const std::string& sentence) noexcept {
+  if (channel_)
+    channel_->refuse(sentence);
+  lanes_.refuse(sentence);
+}
+
+void FluidServer::serve(FluidPeer& fluid) {
+  try {
+    for (;;) {
+      const Command command = next_command();
+      if (command.kind == wire::Kind::farewell)
+        return;
+      if (command.kind == wire::Kind::dem_terms)
+        answer_terms(fluid, command);
+      else if (command.kind == wire::Kind::meeting)
+        answer_meeting(fluid, command);
+      else if (command.kind == wire::Kind::checkpoint)
+        answer_checkpoint(fluid, command);
+      else if (command.kind == wire::Kind::advance)
+        fluid.advance();
+      else
+        fluid.run_ended();
+    }
+  } catch (const Refusal& refusal) {
+    // Both sides print the same sentence.
+    refuse(refusal.what());
+    throw;
+  } catch (const std::exception& problem) {
+    refuse(std::string("the fluid side has stopped: ") + problem.what());
+    throw;
+  }
+}
+
+} // namespace eccentra::link

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The DEM side of the socket link.
+#include "link/socket/socket_peer.h"
+
+#include "link/ranks.h"
+
+#include <algorithm>
+
+namespace eccentra::link {
+
+SocketPeer::SocketPeer(MPI_Comm ranks, const Address& address, const Patience& patience, Rows rows)
+    : ranks_(ranks), address_(address), patience_(patience) {
+  lanes_asked_ = static_cast<std::uint32_t>(size_of(ranks)) - 1;
+  if (lanes_asked_ > 0 && rows == Rows::over_root)
+    why_over_root_ = "the script says lanes no";
+  on_root(ranks_, [&] {
+    channel_ = std::make_unique<Channel>(Channel::Side::dem, address, patience);
+    return wire::Bytes();
+  });
+}
+
+SocketPeer::~SocketPeer() {
+  if (!channel_)
+    return;
+  try {
+    channel_->send(Channel::Message(wire::encode_bare(wire::Kind::farewell)));
+  } catch (...) {
+    // The fluid side has gone; nobody is left to be told.
+  }
+}
+
+void SocketPeer::leave(const std::string& why) noexcept {
+  const std::string sentence = "the DEM side has stopped: " + why;
+  if (channel_)
+    channel_->refuse(sentence);
+  channel_.reset();
+  lanes_.refuse(sentence);
+  left_ = true;
+}
+
+std::uint64_t SocketPeer::bytes() {
+  std::uint64_t sum = channel_ ? channel_->bytes() : 0;
+  for (const Lane& lane : lanes_)
+    sum += lane.channel->bytes();
+  return sum;
+}
+
+template <class Work> auto SocketPeer::or_leave(Work&& work) -> decltype(work()) {
+  if (left_)
+    throw Refusal("the link has been closed after an error");
+  try {
+    return work();
+  } catch (const Refusal& refusal) {
+    leave(refusal.what());
+    throw;
+  }
+}
+
+template <class Work> wire::Bytes SocketPeer::on_root_or_leave(Work&& work) {
+  return or_leave([&] { return on_root(ranks_, work); });
+}
+
+FluidTerms SocketPeer::agree(const DemTerms& dem) {
+  DemTerms told = dem;
+  if (!settled_ && lanes_asked_ > 0 && why_over_root_.empty())
+    why_over_root_ = why_no_lanes(ranks_, Channel::Side::dem, address_, lanes_asked_);
+  if (!settled_ && !why_over_root_.empty())
+    lanes_asked_ = 0;
+  told.lanes = lanes_asked_;
+  extents_ = dem.extents;
+  const wire::Bytes reply = on_root_or_leave([&] {
+    channel_->send(Channel::Message(wire::encode(told)));
+    const Channel::Message message = channel_->receive();
+    const FluidTerms fluid = wire::decode_fluid_terms(message.view());
+    if (const std::string text = disagreement(told, fluid); !text.empty())
+      throw Refusal(text);
+    return wire::Bytes(message.view().data, message.view().data + message.view().size);
+  });
+  if (!settled_ && told.lanes > 0)
+    open_lanes(told.lanes);
+  settled_ = true;
+  return wire::decode_fluid_terms({reply.data(), reply.size()});
+}
+
+void SocketPeer::open_lanes(std::uint32_t count) {
+  const wire::Bytes reply = on_root_or_leave([&] {
+    const Channel::Message message = channel_->receive();
+    if (wire::kind_of(message.view()) != wire::Kind::no_lanes)
+      wire::decode_lanes(message.view(), count);
+    return wire::Bytes(message.view().data, message.view().data + message.view().size);
+  });
+  const wire::View message{reply.data(), reply.size()};
+  by_lanes_ = wire::kind_of(message) == wire::Kind::lanes;
+  if (by_lanes_)
+    or_leave([&] { lanes_.connect(ranks_, address_, patience_, wire::decode_lanes(message, count), extents_); });
+  else
+    why_over_root_ = wire::decode_no_lanes(message);
+}
+
+int SocketPeer::meet(const Meeting& meeting, const ParticleArrays& particles, const fluid::FluidSamples& samples) {
+  const double begun = MPI_Wtime();
+  const std::size_t row_bytes = wire::particle_row_bytes(extents_);
+  const std::size_t answer_bytes = wire::samples_row_bytes(meeting.needed);
+  Meeting told = meeting;
+  told.pack_seconds += transport_seconds_;
+  told.number = ++meetings_;
+  // The totals are the same on every rank.
+  or_leave([&] {
+    if (static_cast<std::uint64_t>(meeting.totals.particles) > wire::kMostParticles)
+      throw Refusal("there are more particles than the " + std::to_string(wire::kMostParticles) +
+                    " that link socket carries: use link solver");
+  });
+  const Shares shares = by_lanes_ ? Shares() : gather_shares(ranks_, particles.count);
+  // Rows go where they are sent from, and samples are read where they were received.
+  Channel* const way = channel_ ? channel_.get() : by_lanes_ ? lanes_.begin()->channel.get() : nullptr;
+  const std::size_t head = wire::kHeaderBytes + (channel_ ? wire::kMeetingBytes : wire::kRowsBytes);
+  const std::size_t count = by_lanes_ ? particles.count : shares.total;
+  Channel::Message message(way ? head + count * row_bytes : 0);
+  if (!way)
+    rows_.resize(particles.count * std::max(row_bytes, answer_bytes));
+  std::byte* const mine = way ? message.data() + head : rows_.data();
+  wire::pack_particles(particles, extents_, mine);
+  if (!by_lanes_)
+    gather_rows(ranks_, mine, static_cast<int>(particles.count), row_bytes, shares, mine);
+  double answered = begun, asked = begun;
+  wire::Rows answer;
+  const auto exchange = [&](const Look& look) {
+    if (!way)
+      return 0;
+    if (channel_)
+      wire::write_meeting_head(message.data(), told, count, extents_);
+    else
+      wire::write_rows_head(message.data(), {lanes_.begin()->rank, told.number}, count, extents_);
+    // Before sending: the other side begins at once, and may take this processor.
+    asked = MPI_Wtime();
+    way->send(std::move(message));
+    message = way->receive(look);
+    answered = MPI_Wtime();
+    answer = wire::decode_samples(message.view(), told.number, count, meeting.needed);
+    return answer.stop_signal;
+  };
+  const std::vector<long long> signals = or_leave([&] { return on_all(ranks_, exchange); });
+  if (!by_lanes_)
+    scatter_rows(ranks_, answer.data, shares, answer_bytes, rows_.data(), static_cast<int>(particles.count));
+  wire::unpack_samples({particles.count, way ? answer.data : rows_.data()}, meeting.needed, samples, particles.ticket);
+  transport_seconds_ = MPI_Wtime() - begun - (answered - asked);
+  return static_cast<int>(signals.front());
+}
+
+void SocketPeer::advance() {
+  on_root_or_leave([&] {
+    channel_->send(Channel::Message(wire::encode_bare(wire::Kind::advance)));
+    return wire::Bytes();
+  });
+}
+
+std::string SocketPeer::checkpoint(const CheckpointMark& mark) {
+  const wire::Bytes place = on_root_or_leave([&] {
+    channel_->send(Channel::Message(wire::encode(mark)));
+    const Channel::Message message = channel_->receive();
+    const std::string text = wire::decode_checkpointed(message.view());
+    const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+    return wire::Bytes(bytes, bytes + text.size());
+  });
+  return {reinterpret_cast<const char*>(place.data()), place.size()};
+}
+
+void SocketPeer::run_ended() {
+  on_root_or_leave([&] {
+    channel_->send(Channel::Message(wire::encode_bare(wire::Kind::run_ended)));
+    return wire::Bytes();
+  });
+}
+
+} // namespace eccentra::link

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The fields of each record in the order in which they travel, described once for writing, reading and counting.
+#pragma once
+
+#include "link/socket/wire_values.h"
+
+namespace eccentra::link::wire {
+
+// `Way` is Writer, Reader or Sizer; `Record` is const where it is only read.
+
+template <class Way, class Numbers> constexpr void numbers(Way& way, Numbers& three) {
+  for (auto& value : three)
+    way.number(value);
+}
+
+template <class Way, class Record> constexpr void extents_fields(Way& way, Record& extents) {
+  numbers(way, extents.low);
+  numbers(way, extents.high);
+  for (auto& periodic : extents.periodic)
+    way.yes_or_no(periodic);
+  way.unused();
+}
+
+template <class Way, class Record> constexpr void flow_curve_fields(Way& way, Record& law) {
+  way.number(law.yield_stress);
+  way.number(law.consistency);
+  way.number(law.index);
+}
+
+template <class Way, class Record> constexpr void mark_fields(Way& way, Record& mark) {
+  way.plain(mark.step);
+  way.plain(mark.id);
+}
+
+template <class Way, class Record> constexpr void dem_terms_fields(Way& way, Record& terms) {
+  way.plain(terms.protocol);
+  way.yes_or_no(terms.extents);
+  way.number(terms.length_unit);
+  way.number(terms.time_step);
+  way.plain(terms.interval);
+  way.plain(terms.particles);
+  extents_fields(way, terms.domain);
+  way.quantities(terms.needed);
+  way.yes_or_no(terms.overlap);
+  way.number(terms.fluid_density);
+  flow_curve_fields(way, terms.rheology);
+  numbers(way, terms.gravity);
+  mark_fields(way, terms.resumes);
+  way.plain(terms.lanes);
+  way.unused();
+}
+
+template <class Way, class Record> constexpr void fluid_terms_fields(Way& way, Record& terms) {
+  way.plain(terms.protocol);
+  way.yes_or_no(terms.has_gravity);
+  way.number(terms.length_unit);
+  way.number(terms.time_step);
+  extents_fields(way, terms.domain);
+  way.quantities(terms.offered);
+  way.unused();
+  way.number(terms.fluid_density);
+  flow_curve_fields(way, terms.rheology);
+  numbers(way, terms.gravity);
+  way.plain(terms.layout);
+}
+
+template <class Way, class Record> constexpr void totals_fields(Way& way, Record& totals) {
+  way.plain(totals.particles);
+  way.plain(totals.inserted);
+  way.number(totals.inserted_mass);
+  way.number(totals.volume);
+  way.number(totals.mass);
+  way.number(totals.fastest);
+  numbers(way, totals.impulse);
+  numbers(way, totals.momentum);
+  numbers(way, totals.volume_position);
+  numbers(way, totals.volume_velocity);
+}
+
+template <class Way, class Record> constexpr void load_fields(Way& way, Record& load) {
+  way.plain(load.ranks);
+  way.plain(load.most_particles);
+  way.number(load.mean_seconds);
+  way.number(load.most_seconds);
+}
+
+/// All of a meeting but the number and the length of its rows, which come first.
+template <class Way, class Record> constexpr void meeting_fields(Way& way, Record& meeting) {
+  way.quantities(meeting.needed);
+  way.number(meeting.elapsed);
+  way.number(meeting.dem_seconds);
+  way.number(meeting.pack_seconds);
+  way.plain(meeting.steps_done);
+  way.plain(meeting.steps_total);
+  way.plain(meeting.number);
+  totals_fields(way, meeting.totals);
+  load_fields(way, meeting.load);
+}
+
+/// Bytes of a record, given its description: kBytes<DemTerms>(dem_terms_fields<Sizer, DemTerms>).
+template <class Record> constexpr std::size_t bytes_of(void (*fields)(Sizer&, Record&)) {
+  Sizer sizer;
+  Record record{};
+  fields(sizer, record);
+  return sizer.bytes();
+}
+
+} // namespace eccentra::link::wire

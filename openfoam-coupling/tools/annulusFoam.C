@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// annulusFoam: flow of a generalised-Newtonian fluid in an annulus (or any other mesh), alone or with particles.
+#include "coupled/coupledRun.H"
+#include "flow/averagedFlow.H"
+#include "flow/flowProgress.H"
+#include "flow/timeStepControl.H"
+#include "support/arithmeticFault.H"
+#include "support/inputError.H"
+
+#include "Time.H"
+#include "argList.H"
+#include "fvMesh.H"
+
+using namespace Foam;
+
+namespace {
+
+void run(const argList& args) {
+  if (!args.checkRootCase()) {
+    throw inputError("no case in " + args.path() + ": give its folder with -case, or change into it");
+  }
+  Time runTime(Time::controlDictName, args);
+  fvMesh mesh(IOobject(fvMesh::defaultRegion, runTime.timeName(), runTime, IOobject::MUST_READ));
+  if (eccentra::coupledRun::wanted(runTime)) {
+    eccentra::coupledRun(mesh, args.found("verbose"), args.found("resume")).run();
+    return;
+  }
+  averagedFlow flow(mesh, averagedFlow::particles::none);
+  timeStepControl timeStep(runTime);
+  flowProgress progress(runTime, flow, args.found("verbose"));
+  eccentra::endOnArithmeticFault(
+      "annulusFoam: error: the flow has blown up (a division by zero, an overflow or a value "
+      "that is no number): reduce deltaT, or check the numbers of the boundary conditions\n");
+  while (runTime.run()) {
+    timeStep.adjust(flow.CourantNo());
+    ++runTime;
+    progress.silence();
+    flow.advance();
+    progress.report();
+    runTime.write();
+  }
+  progress.summary();
+}
+
+} // namespace
+
+int main(int argc, char* argv[]) {
+  argList::addNote("Flow of a Herschel-Bulkley fluid in an annulus, alone or with particles");
+  argList::noBanner();
+  argList::addBoolOption("verbose", "print the residuals of every linear solve");
+  argList::addBoolOption("resume", "go on from the newest complete checkpoint of a coupled run (docs/checkpoints.md)");
+  const argList args(argc, argv);
+  eccentra::endOnArithmeticFault("annulusFoam: error: a number that is read is out of range (a division by zero or an "
+                                 "overflow): correct it in the dictionaries, the fields or their FoamFile headers\n");
+  runReportingErrors("annulusFoam", [&] { run(args); });
+  return 0;
+}

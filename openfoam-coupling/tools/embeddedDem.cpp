@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Hosts LIGGGHTS; kept apart from OpenFOAM's headers and macros.
+#include "coupled/demHost.h"
+
+#include "styles/entry/style_registry.h"
+
+#include <mpi.h>
+
+#include "input.h"
+#include "lammps.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace eccentra {
+namespace {
+
+/// Name of the log while a script runs; empty when it has ended well. Outlives everything, for exit handlers.
+std::string& running_log() {
+  static std::string* name = new std::string;
+  return *name;
+}
+
+// LIGGGHTS writes its error to the log, closes it and calls exit().
+void show_error_of_log() {
+  if (running_log().empty())
+    return;
+  std::ifstream log(running_log());
+  std::string line, error;
+  while (std::getline(log, line))
+    if (line.rfind("ERROR", 0) == 0)
+      error = line;
+  std::fprintf(stderr, "annulusFoam: the DEM script ended early: %s\n",
+               error.empty() ? ("see " + running_log()).c_str() : error.c_str());
+  std::fflush(stderr);
+}
+
+} // namespace
+
+void run_dem_script(const std::string& script, const std::string& log, const std::vector<std::string>& more) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0) {
+    running_log() = log;
+    std::atexit(show_error_of_log);
+  }
+  // Not "-screen none": some stock styles print without asking whether there is a screen.
+  std::vector<std::string> words = {"liggghts", "-log", log, "-screen", "/dev/null"};
+  words.insert(words.end(), more.begin(), more.end());
+  std::vector<char*> arguments;
+  for (std::string& word : words)
+    arguments.push_back(word.data());
+  {
+    LAMMPS_NS::LAMMPS liggghts(static_cast<int>(arguments.size()), arguments.data(), MPI_COMM_WORLD);
+    host::enter(&liggghts);
+    liggghts.input->file(script.c_str());
+  }
+  running_log().clear();
+}
+
+} // namespace eccentra

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Particles in arrays as LIGGGHTS keeps them, without LIGGGHTS: for timing effects and comparing them.
+#pragma once
+
+#include "closures/drag_laws.h"
+#include "closures/effect.h"
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+namespace eccentra::test {
+
+/// Spheres of the reference case near their terminal velocity in a sheared suspension, positions irrelevant.
+class ParticleArrays : public fluid::ShapeCatalogue {
+ public:
+  explicit ParticleArrays(int count, unsigned seed = 1)
+      : velocity_(3 * count), force_(3 * count), spin_(3 * count), torque_(3 * count), flow_(3 * count),
+        pressure_(3 * count), stress_(3 * count), vorticity_(3 * count), impulse_(3 * count), last_(4 * count),
+        mass_(count, kMass), radius_(count, kRadius), fraction_(count), coefficient_(count), kind_(count, 1),
+        mask_(count, 1), rows_(4 * count) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    const auto fill = [&](std::vector<double>& values, double scale) {
+      for (double& value : values)
+        value = scale * normal(random);
+    };
+    fill(velocity_, 0.1);
+    fill(spin_, 5.0);
+    fill(flow_, 0.1);
+    fill(pressure_, 300.0);
+    fill(stress_, 300.0);
+    fill(vorticity_, 10.0);
+    for (double& a : fraction_)
+      a = std::uniform_real_distribution<double>(0.5, 1.0)(random);
+    for (int i = 0; i < count; ++i) {
+      rows_[i] = &velocity_[3 * i];
+      rows_[count + i] = &force_[3 * i];
+      rows_[2 * count + i] = &spin_[3 * i];
+      rows_[3 * count + i] = &torque_[3 * i];
+    }
+    using Rows3 = double(*)[3];
+    kick_.count = count;
+    kick_.interval = 2e-5;
+    kick_.velocity = &rows_[0];
+    kick_.force = &rows_[count];
+    kick_.spin = &rows_[2 * count];
+    kick_.torque = &rows_[3 * count];
+    kick_.mass = mass_.data();
+    kick_.radius = radius_.data();
+    kick_.kind = kind_.data();
+    kick_.mask = mask_.data();
+    kick_.group = kick_.integrated = 1;
+    kick_.gravity[2] = -9.81;
+    kick_.samples = {reinterpret_cast<Rows3>(flow_.data()), fraction_.data(), reinterpret_cast<Rows3>(pressure_.data()),
+                     reinterpret_cast<Rows3>(stress_.data()), reinterpret_cast<Rows3>(vorticity_.data())};
+    kick_.impulse = reinterpret_cast<Rows3>(impulse_.data());
+    kick_.drag_coefficient = coefficient_.data();
+    kick_.last = reinterpret_cast<double(*)[4]>(last_.data());
+  }
+
+  const fluid::Kick& kick() const { return kick_; }
+  const std::vector<double>& forces() const { return force_; }
+  void clear_forces() {
+    std::fill(force_.begin(), force_.end(), 0.0);
+    std::fill(torque_.begin(), torque_.end(), 0.0);
+    std::fill(last_.begin(), last_.end(), 0.0);
+  }
+
+  int kinds() const override { return 2; }
+  fluid::ShapeFactors factors(int) const override { return {}; }
+  double inertia_factor(int) const override { return 0.4; }
+  double crosswise_sphericity(int, const double*) const override { return 1.0; }
+
+ private:
+  static constexpr double kRadius = 3.175e-3;
+  static constexpr double kMass = 2619.0 * 4.0 / 3.0 * fluid::kPi * kRadius * kRadius * kRadius;
+  std::vector<double> velocity_, force_, spin_, torque_, flow_, pressure_, stress_, vorticity_, impulse_, last_;
+  std::vector<double> mass_, radius_, fraction_, coefficient_;
+  std::vector<int> kind_, mask_;
+  std::vector<double*> rows_;
+  fluid::Kick kick_;
+};
+
+} // namespace eccentra::test

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// fix balance/bodies: where planes go, that ranks become equally loaded, and that not a digit of the results changes.
+#include "contact/balanced_planes.h"
+
+#include "bodies_scene.h"
+
+#include "comm.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+
+using namespace eccentra;
+using namespace eccentra::test;
+
+TEST(BalancedPlanes, MoveHalfwayAtMostAndReachEqualShares) {
+  // All bodies in the first tenth of the box.
+  std::vector<double> counts(1000, 0.), planes = {0, 0.25, 0.5, 0.75, 1};
+  std::fill(counts.begin(), counts.begin() + 100, 1.);
+  for (int round = 0; round < 20; ++round) {
+    const auto next = cluster::balanced_planes(planes, counts, 0.01);
+    for (int p = 1; p < 4; ++p) {
+      EXPECT_GE(next[p], planes[p - 1]);
+      EXPECT_LE(next[p], planes[p + 1]);
+    }
+    planes = next;
+  }
+  for (int p = 1; p < 4; ++p)
+    EXPECT_NEAR(planes[p], 0.025 * p, 1e-9);
+  // A slab stays as wide as it must, and nobody at all changes nothing.
+  planes = {0, 0.25, 0.5, 0.75, 1};
+  for (int round = 0; round < 20; ++round)
+    planes = cluster::balanced_planes(planes, counts, 0.1);
+  for (int p = 1; p <= 4; ++p)
+    EXPECT_GE(planes[p] - planes[p - 1], 0.1 - 1e-12);
+  EXPECT_EQ(cluster::balanced_planes(planes, std::vector<double>(1000, 0.), 0.1), planes);
+}
+
+namespace {
+
+constexpr int along = 16, across = 3;
+
+/// Bodies in one end of the box slide along a floor and a ramp of triangles towards the other.
+void fill(LiggghtsSession& session) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal(0, 1);
+  const shape::ClusterShape shapes[] = {shape_of("cube", "8"), shape_of("disk", "7"), shape_of("cube", "27")};
+  int n = 0;
+  for (int a = 0; a < along; ++a)
+    for (int b = 0; b < across; ++b, ++n) {
+      Start start;
+      start.position = Eigen::Vector3d(-0.094 + 0.0085 * (a % 8), (b - 1) * 9e-3, -0.094 + 9e-3 * (a / 8));
+      start.velocity = Eigen::Vector3d(1, 0, 0) + 0.1 * Eigen::Vector3d(normal(random), normal(random), normal(random));
+      start.orientation =
+          Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
+      add_body(session, shapes[n % 3], start);
+    }
+}
+
+struct Outcome {
+  std::vector<std::array<double, 7>> bodies;
+  double imbalance, first_imbalance;
+};
+
+Outcome run(MPI_Comm ranks, bool balanced) {
+  LiggghtsSession session(ranks);
+  session.command("processors * 1 1");
+  open_box(session, {});
+  use_clusters(session);
+  fill(session);
+  session.script("fix gravity all gravity 9.81 vector 0.5 0 -1\n"
+                 "fix floor all wall/gran/cluster model hertz tangential history primitive type 1 zplane -0.1\n"
+                 "fix ramp_mesh all mesh/surface file balance_ramp.stl type 1\n"
+                 "fix ramp all wall/gran/cluster model hertz tangential history mesh n_meshes 1 meshes ramp_mesh\n");
+  if (balanced)
+    session.script("fix balance all balance/bodies every 200 threshold 1.05\n");
+  session.script("timestep 1e-5\nrun 0\n");
+  LAMMPS_NS::Fix* fix = balanced ? session.lammps().modify->find_fix_id("balance") : nullptr;
+  Outcome outcome;
+  outcome.first_imbalance = fix ? fix->compute_scalar() : 1;
+  session.script("run 6000\n");
+  outcome.imbalance = fix ? fix->compute_scalar() : 1;
+  const int count = along * across;
+  EXPECT_EQ(session.atom().natoms, count);
+  outcome.bodies.assign(count, {});
+  for (int tag = 1; tag <= count; ++tag) {
+    const int i = session.local(tag);
+    if (i < 0)
+      continue;
+    double* next = std::copy_n(session.atom().x[i], 3, outcome.bodies[tag - 1].data());
+    std::copy_n(cluster::FixBodies::require(&session.lammps()).quaternion(i), 4, next);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, outcome.bodies[0].data(), 7 * count, MPI_DOUBLE, MPI_SUM, ranks);
+  return outcome;
+}
+
+} // namespace
+
+TEST(Balance, RanksShareTheBodiesAndNoDigitChanges) {
+  int ranks = 1, rank = 0;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0) {
+    std::ofstream stl("balance_ramp.stl");
+    const char* corners[4] = {"-0.02 -0.03 -0.1", "0.09 -0.03 -0.08", "0.09 0.03 -0.08", "-0.02 0.03 -0.1"};
+    stl << "solid ramp\n";
+    for (const int t : {1, 2})
+      stl << "facet normal 0 0 1\nouter loop\nvertex " << corners[0] << "\nvertex " << corners[t] << "\nvertex "
+          << corners[t + 1] << "\nendloop\nendfacet\n";
+    stl << "endsolid ramp\n";
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  const Outcome alone = run(MPI_COMM_SELF, false), together = run(MPI_COMM_WORLD, true);
+  EXPECT_EQ(together.bodies, alone.bodies);
+  if (ranks > 1) {
+    EXPECT_GT(together.first_imbalance, 1.3) << "the scene starts unbalanced";
+    EXPECT_LT(together.imbalance, 1.3);
+  }
+}

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scenes of a few bodies placed by hand.
+#pragma once
+
+#include "shape/cluster_shape.h"
+#include "styles/bodies/bodies.h"
+#include "support/liggghts_session.h"
+
+#include "atom_vec.h"
+#include "modify.h"
+
+#include <Eigen/Geometry>
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+namespace eccentra::test {
+
+/// What the materials of a scene are; poisson 0.3.
+struct Material {
+  double youngs = 5e6;
+  double restitution = 0.9;
+  double friction = 0.5;
+};
+
+/// A box of 0.2 m about the origin without gravity, no pair style yet.
+inline void open_box(LiggghtsSession& session, const Material& material, const std::string& boundary = "f f f") {
+  session.script(
+      "atom_style granular\natom_modify map array\nboundary " + boundary +
+      "\nnewton off\ncommunicate single vel yes\nunits si\n"
+      "region box block -0.1 0.1 -0.1 0.1 -0.1 0.1 units box\ncreate_box 1 box\n"
+      "neighbor 0.001 bin\nneigh_modify delay 0\nfix m1 all property/global youngsModulus peratomtype " +
+      std::to_string(material.youngs) + "\nfix m2 all property/global poissonsRatio peratomtype 0.3\n" +
+      "fix m3 all property/global coefficientRestitution peratomtypepair 1 " + std::to_string(material.restitution) +
+      "\nfix m4 all property/global coefficientFriction peratomtypepair 1 " + std::to_string(material.friction) + "\n");
+}
+
+inline void use_clusters(LiggghtsSession& session, const std::string& words = "") {
+  session.script("pair_style gran/cluster model hertz tangential history rolling_friction off " + words +
+                 "\npair_coeff * *\nfix integrate all nve/cluster\n");
+}
+
+inline shape::ClusterShape shape_of(const std::string& family, const std::string& count, double diameter = 6.35e-3) {
+  std::size_t used = 0;
+  return shape::make_shape({family, count}, 0, used, diameter);
+}
+
+/// A body as it starts.
+struct Start {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d omega = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+};
+
+/// Creates one atom on the rank that owns its place; its tag is the next free one. Returns its local index or -1.
+inline int create_atom(LiggghtsSession& session, const Start& start) {
+  const auto& x = start.position;
+  session.command("create_atoms 1 single " + std::to_string(x[0]) + " " + std::to_string(x[1]) + " " +
+                  std::to_string(x[2]) + " units box");
+  const int i = session.local(static_cast<int>(session.atom().natoms));
+  if (i >= 0)
+    for (int k = 0; k < 3; ++k) {
+      session.atom().x[i][k] = x[k]; // with all its digits
+      session.atom().v[i][k] = start.velocity[k];
+      session.atom().omega[i][k] = start.omega[k];
+    }
+  return i;
+}
+
+inline void add_sphere(LiggghtsSession& session, const Start& start, double radius, double density = 2619) {
+  const int i = create_atom(session, start);
+  if (i < 0)
+    return;
+  session.atom().radius[i] = radius;
+  session.atom().density[i] = density;
+  session.atom().rmass[i] = density * 4 * M_PI / 3 * radius * radius * radius;
+}
+
+inline void add_body(LiggghtsSession& session, const shape::ClusterShape& shape, const Start& start,
+                     double density = 2619) {
+  cluster::FixBodies& bodies = cluster::FixBodies::require(&session.lammps());
+  const int id = bodies.shapes().add(shape);
+  const int i = create_atom(session, start);
+  const auto& q = start.orientation;
+  const double words[4] = {q.w(), q.x(), q.y(), q.z()};
+  if (i >= 0)
+    bodies.make_body(i, id, density, words);
+}
+
+/// Kinetic energy of translation and rotation, from fix nve/cluster.
+inline double kinetic_energy(LiggghtsSession& session) {
+  LAMMPS_NS::Fix* motion = session.lammps().modify->find_fix_id("integrate");
+  return motion->compute_vector(0) + motion->compute_vector(1);
+}
+
+} // namespace eccentra::test
