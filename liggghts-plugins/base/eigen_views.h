@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-namespace eccentra::cluster {
+namespace eccentra::base {
 
 inline Eigen::Vector3d vector3(const double* v) {
   return {v[0], v[1], v[2]};
@@ -21,4 +21,4 @@ inline void add(double* sum, const Eigen::Vector3d& v) {
     sum[k] += v[k];
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::base

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace eccentra::fluid {
+namespace eccentra::base {
 
 inline void cross(const double* a, const double* b, double* out) {
   out[0] = a[1] * b[2] - a[2] * b[1];
@@ -17,4 +17,4 @@ inline double norm(const double* a) {
   return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }
 
-} // namespace eccentra::fluid
+} // namespace eccentra::base

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 /// Per-volume force fields; each gives N/m3 at atom i.
 struct BuoyancyField {
@@ -15,23 +15,23 @@ struct BuoyancyField {
   static constexpr unsigned kNeeds = 0;
   double density;
   /// -rho_f g: the hydrostatic part of -grad p.
-  double operator()(const Kick& kick, int, int k) const { return -density * kick.gravity[k]; }
+  double operator()(const HalfStep& kick, int, int k) const { return -density * kick.gravity[k]; }
 };
 
 struct PressureField {
   static constexpr const char* kName = "pressure_gradient";
-  static constexpr unsigned kNeeds = kPressureGradient;
+  static constexpr unsigned kNeeds = link::kPressureGradient;
   double density;
   /// -grad p_rgh; the fluid has its opposite in alpha grad p already (model A).
-  double operator()(const Kick& kick, int i, int k) const { return -kick.samples.pressure_gradient[i][k]; }
+  double operator()(const HalfStep& kick, int i, int k) const { return -kick.samples.pressure_gradient[i][k]; }
 };
 
 struct StressField {
   static constexpr const char* kName = "viscous_stress";
-  static constexpr unsigned kNeeds = kStressDivergence;
+  static constexpr unsigned kNeeds = link::kStressDivergence;
   double density;
   /// div tau; with it, -grad p_rgh is the whole stress of model A on the particle.
-  double operator()(const Kick& kick, int i, int k) const { return kick.samples.stress_divergence[i][k]; }
+  double operator()(const HalfStep& kick, int i, int k) const { return kick.samples.stress_divergence[i][k]; }
 };
 
 template <class Field> class BodyForce : public Effect {
@@ -40,7 +40,7 @@ template <class Field> class BodyForce : public Effect {
 
   const char* name() const override { return Field::kName; }
   unsigned needs() const override { return Field::kNeeds; }
-  void apply(const Kick& kick) override {
+  void apply(const HalfStep& kick) override {
     double sum[3] = {0.0, 0.0, 0.0};
     for (int i = 0; i < kick.count; ++i) {
       if (!(kick.mask[i] & kick.group))
@@ -60,4 +60,4 @@ template <class Field> class BodyForce : public Effect {
   Field field_;
 };
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

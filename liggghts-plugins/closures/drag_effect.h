@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 /// Fluid fraction below which a drag law is evaluated at this value: beyond random close packing no law was measured.
 /// Only the law's argument is limited; no volume is lost.
@@ -25,7 +25,7 @@ template <class Stress, class Law> class DragEffect : public Effect {
 
   const char* name() const override { return name_.c_str(); }
   const char* slot() const override { return "drag"; }
-  unsigned needs() const override { return kVelocity | kFraction; }
+  unsigned needs() const override { return link::kVelocity | link::kFraction; }
   void prepare(const ShapeCatalogue& shapes) override {
     shapes_ = &shapes;
     laws_.clear();
@@ -34,7 +34,7 @@ template <class Stress, class Law> class DragEffect : public Effect {
   }
 
   std::vector<Validity> validity() const override { return {{kReynolds, Law::kLowestRe, Law::kHighestRe}}; }
-  void apply(const Kick& kick) override {
+  void apply(const HalfStep& kick) override {
     double sum[3] = {0.0, 0.0, 0.0};
     // Copies: a force that is written could be one of the members, as far as the compiler knows.
     const Stress stress = stress_;
@@ -87,4 +87,4 @@ template <class Stress, class Law> class DragEffect : public Effect {
   const ShapeCatalogue* shapes_ = nullptr;
 };
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

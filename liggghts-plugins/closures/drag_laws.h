@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 /// What a drag law may know of a particle's shape.
 struct ShapeFactors {
@@ -235,4 +235,4 @@ struct DiFelice {
   Placed in(const DragPlace& place) const { return {place.fraction, std::log(place.fraction)}; }
 };
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

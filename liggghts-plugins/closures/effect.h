@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 struct ShapeFactors;
 
@@ -27,10 +27,10 @@ class ShapeCatalogue {
   virtual double crosswise_sphericity(int i, const double* direction) const = 0;
 };
 
-/// The particles of one rank at one kick of the integrator, as plain arrays; rows are local atoms.
-struct Kick {
+/// The particles of one rank at one half step of the integrator, as plain arrays; rows are local atoms.
+struct HalfStep {
   int count = 0;
-  double interval = 0.0; ///< time over which the forces of this kick act [s]
+  double interval = 0.0; ///< time over which the forces of this half step act [s]
   double** velocity = nullptr;
   double** force = nullptr; ///< all other forces when an effect starts; each effect adds its own
   double** spin = nullptr;
@@ -43,10 +43,10 @@ struct Kick {
   int integrated = 0; ///< bits of the atoms that a fix integrates
   int frozen = 0;     ///< bits of the atoms that are held: they load the fluid, and receive no force
   double gravity[3] = {0.0, 0.0, 0.0};
-  FluidSamples samples;
+  link::FluidSamples samples;
   double (*impulse)[3] = nullptr;
   double* drag_coefficient = nullptr;
-  double (*last)[4] = nullptr; ///< drag and lifts of this kick [N], and the linearised drag [kg/s]
+  double (*last)[4] = nullptr; ///< drag and lifts of this half step [N], and the linearised drag [kg/s]
 
   /// interval/m: how far a force moves the velocity of atom i; 0 if nothing can move it.
   double compliance(int i) const { return (mask[i] & integrated) && !(mask[i] & frozen) ? interval / mass[i] : 0.0; }
@@ -77,14 +77,14 @@ class Effect {
   virtual unsigned needs() const = 0;
   /// Prepares what depends on shapes only; called at set-up.
   virtual void prepare(const ShapeCatalogue&) {}
-  virtual void apply(const Kick& kick) = 0;
-  /// True if it acts on spins (Kick::torque), false if on velocities (Kick::force).
+  virtual void apply(const HalfStep& kick) = 0;
+  /// True if it acts on spins (HalfStep::torque), false if on velocities (HalfStep::force).
   virtual bool is_torque() const { return false; }
   virtual std::vector<Validity> validity() const { return {}; }
   /// Slot of an effect that must act wherever this one does, or null.
   virtual const char* requires_slot() const { return nullptr; }
 
-  /// Sum over this rank's particles of the force (or torque) of the last kick, world frame.
+  /// Sum over this rank's particles of the force (or torque) of the last half step, world frame.
   const double* total() const { return total_; }
 
  protected:
@@ -93,4 +93,4 @@ class Effect {
 
 using EffectList = std::vector<std::unique_ptr<Effect>>;
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

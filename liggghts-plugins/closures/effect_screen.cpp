@@ -8,7 +8,7 @@
 #include <cstring>
 #include <numeric>
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 namespace {
 
@@ -29,7 +29,7 @@ void copy_rows(double** rows, int count, std::vector<double>& out) {
 
 double change_of_row(const double* now, const double* before) {
   const double change[3] = {now[0] - before[0], now[1] - before[1], now[2] - before[2]};
-  return norm(change);
+  return base::norm(change);
 }
 
 /// a/b where nothing over nothing is nothing, and something over nothing is endless. No division by zero: a solver
@@ -68,12 +68,12 @@ std::vector<LogHistogram*> EffectScreen::histograms() {
   return all;
 }
 
-void EffectScreen::apply(const Kick& kick, const EffectList& effects, const Rheology& fluid) {
+void EffectScreen::apply(const HalfStep& kick, const EffectList& effects, const Rheology& fluid) {
   const std::size_t count = kick.count;
   magnitude_.assign(effects.size() * count, 0.0);
   torque_peers_.resize(count);
   for (int i = 0; i < kick.count; ++i)
-    torque_peers_[i] = norm(kick.torque[i]);
+    torque_peers_[i] = base::norm(kick.torque[i]);
   for (std::size_t e = 0; e < effects.size(); ++e) {
     copy_rows(kick.force, kick.count, before_force_);
     copy_rows(kick.torque, kick.count, before_torque_);
@@ -84,7 +84,7 @@ void EffectScreen::apply(const Kick& kick, const EffectList& effects, const Rheo
       magnitude_[e * count + i] = change_of_row(rows[i], &before[3 * i]);
   }
   const auto drag = std::find_if(effects.begin(), effects.end(), [](const auto& effect) { return is_drag(*effect); });
-  const double g = norm(kick.gravity);
+  const double g = base::norm(kick.gravity);
   for (std::size_t i = 0; i < count; ++i) {
     if (!(kick.mask[i] & kick.group) || (kick.mask[i] & kick.frozen))
       continue;
@@ -209,4 +209,4 @@ std::size_t EffectScreen::load(const double* state, bool with_sums) {
   return read;
 }
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

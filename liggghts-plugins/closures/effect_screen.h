@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 /// During a measurement every effect is on. Forces are compared with the larger of submerged weight and drag of the
 /// same particle; the rotational drag with the sum of all other torques on it. The effects with the smallest 95 %
@@ -27,8 +27,8 @@ class EffectScreen {
   /// True while measuring (every effect is on).
   bool measuring() const { return measuring_; }
   bool sample_now() const { return measuring_ && done_ % stride_ == 0; }
-  /// Applies all effects like a plain kick, and keeps what each of them did.
-  void apply(const Kick& kick, const EffectList& effects, const Rheology& fluid);
+  /// Applies all effects like a plain half step, and keeps what each of them did.
+  void apply(const HalfStep& kick, const EffectList& effects, const Rheology& fluid);
   /// Counts a step; true when a measurement has just ended or is due to begin: ask measuring().
   bool step();
   /// Begins a measurement.
@@ -61,4 +61,4 @@ class EffectScreen {
   std::vector<double> before_force_, before_torque_, magnitude_, torque_peers_;
 };
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads the words of `fix fluid/force` and builds its effects.
+// Reads the arguments of `fix fluid/force` and builds its effects.
 #include "closures/fluid_options.h"
 
 #include "closures/body_forces.h"
@@ -16,7 +16,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 namespace {
 
@@ -59,16 +59,16 @@ std::string shortest(double value) {
   return text.str();
 }
 
-/// Reads words one after the other, with the keyword at hand for messages.
-class WordReader {
+/// Reads arguments one after the other, with the keyword at hand for messages.
+class ArgumentReader {
  public:
-  explicit WordReader(const std::vector<std::string>& words) : words_(words) {}
-  bool more() const { return next_ < words_.size(); }
-  const std::string& keyword() { return keyword_ = words_[next_++]; }
+  explicit ArgumentReader(const std::vector<std::string>& arguments) : arguments_(arguments) {}
+  bool more() const { return next_ < arguments_.size(); }
+  const std::string& keyword() { return keyword_ = arguments_[next_++]; }
   const std::string& word(const char* expected) {
     if (!more())
       fail("keyword '" + keyword_ + "' is the last word: " + expected + " must follow");
-    return words_[next_++];
+    return arguments_[next_++];
   }
   double number(const char* name) {
     const std::string what = "keyword '" + keyword_ + "' (" + name + ")";
@@ -101,12 +101,12 @@ class WordReader {
     if (!more())
       return false;
     char* end = nullptr;
-    std::strtod(words_[next_].c_str(), &end);
-    return end != words_[next_].c_str() && *end == '\0';
+    std::strtod(arguments_[next_].c_str(), &end);
+    return end != arguments_[next_].c_str() && *end == '\0';
   }
 
  private:
-  const std::vector<std::string>& words_;
+  const std::vector<std::string>& arguments_;
   std::size_t next_ = 0;
   std::string keyword_;
 };
@@ -117,7 +117,7 @@ double positive(double value, const std::string& what) {
   return value;
 }
 
-void read_rheology(WordReader& reader, Rheology& fluid) {
+void read_rheology(ArgumentReader& reader, Rheology& fluid) {
   const std::string model = reader.word("herschel_bulkley TAU0 K N, power_law K N or newtonian MU");
   fluid.yield_stress = 0.0;
   fluid.index = 1.0;
@@ -136,7 +136,7 @@ void read_rheology(WordReader& reader, Rheology& fluid) {
   fluid.index = positive(reader.number("N"), "the flow index N of 'rheology'");
 }
 
-void read_sphericity(WordReader& reader, FluidOptions& options, int atom_types) {
+void read_sphericity(ArgumentReader& reader, FluidOptions& options, int atom_types) {
   options.sphericity.clear();
   while (options.sphericity.empty() || reader.at_number()) {
     const double phi = reader.number("PHI, 0 < PHI <= 1");
@@ -174,9 +174,9 @@ std::string drag_law_names() {
   return names + "none";
 }
 
-FluidOptions read_fluid_options(const std::vector<std::string>& words, int atom_types) {
+FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int atom_types) {
   FluidOptions options;
-  WordReader reader(words);
+  ArgumentReader reader(arguments);
   std::set<std::string> said;
   while (reader.more()) {
     const std::string keyword = reader.keyword();
@@ -266,4 +266,4 @@ EffectList make_effects(const FluidOptions& options) {
   return effects;
 }
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

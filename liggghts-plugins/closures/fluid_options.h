@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The words of `fix fluid/force`, read into values and turned into the list of effects that they ask for.
+// The arguments of `fix fluid/force`, read into values and turned into the list of effects that they ask for.
 #pragma once
 
 #include "closures/effect.h"
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 struct FluidOptions {
   Rheology rheology;
@@ -26,9 +26,9 @@ struct FluidOptions {
   std::vector<double> sphericity = {1.0}; ///< of plain spheres: one value, or one per atom type
 };
 
-/// Reads the words after `fix ID group fluid/force`. Throws std::invalid_argument with one sentence that names the
+/// Reads the arguments after `fix ID group fluid/force`. Throws std::invalid_argument with one sentence that names the
 /// word, its value and the remedy.
-FluidOptions read_fluid_options(const std::vector<std::string>& words, int atom_types);
+FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int atom_types);
 
 /// The effects that are on, in the order in which they act: volume forces, lifts, drag (implicit against all others).
 EffectList make_effects(const FluidOptions& options);
@@ -39,4 +39,4 @@ std::string drag_law_names();
 /// One finite number; throws std::invalid_argument that names `what` and the value.
 double read_number(const std::string& word, const std::string& what);
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 /// A resistance R(U) = area * X(U/length) * G(Re), Re = inertia * U^2 / X: drag (U a slip speed) with area (pi/8) d^2,
 /// or rotational drag (U a relative spin). `Stress` is X, `Law` is the reduced coefficient G = C_D Re with slope
@@ -87,4 +87,4 @@ template <class R>
   return {0.0, free_slip / compliance};
 }
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

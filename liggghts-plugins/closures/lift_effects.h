@@ -8,16 +8,16 @@
 
 #include <algorithm>
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 /// Calls force(i, viscosity, d, slip, out) for every particle that slips, and adds what comes out.
 class Lift : public Effect {
  public:
   explicit Lift(const Rheology& fluid) : fluid_(fluid) {}
-  unsigned needs() const override { return kVelocity | kVorticity; }
+  unsigned needs() const override { return link::kVelocity | link::kVorticity; }
 
  protected:
-  template <class Force> void for_each(const Kick& kick, Force&& force) {
+  template <class Force> void for_each(const HalfStep& kick, Force&& force) {
     double sum[3] = {0.0, 0.0, 0.0};
     for (int i = 0; i < kick.count; ++i) {
       if (!(kick.mask[i] & kick.group))
@@ -25,7 +25,7 @@ class Lift : public Effect {
       double slip[3], f[3];
       for (int k = 0; k < 3; ++k)
         slip[k] = kick.samples.velocity[i][k] - kick.velocity[i][k];
-      const double speed = norm(slip);
+      const double speed = base::norm(slip);
       if (!(speed > 0.0))
         continue;
       const double d = 2.0 * kick.radius[i];
@@ -51,7 +51,7 @@ class ShearLift : public Lift {
   std::vector<Validity> validity() const override {
     return {{kReynolds, 0.0, Mei::kHighestRe}, {kShearParameter, Mei::kLowestBeta, Mei::kHighestBeta}};
   }
-  void apply(const Kick& kick) override {
+  void apply(const HalfStep& kick) override {
     for_each(kick, [&](int i, double viscosity, double d, const double* slip, double* f) {
       shear_lift_force(fluid_.density, viscosity, d, slip, kick.samples.vorticity[i], f);
     });
@@ -68,7 +68,7 @@ class RotationalLift : public Lift {
     return {{kReynolds, OesterleBuiDinh::kLowestRe, OesterleBuiDinh::kHighestRe},
             {kSpinParameter, OesterleBuiDinh::kLowestSpin, OesterleBuiDinh::kHighestSpin}};
   }
-  void apply(const Kick& kick) override {
+  void apply(const HalfStep& kick) override {
     for_each(kick, [&](int i, double viscosity, double d, const double* slip, double* f) {
       double spin[3];
       for (int k = 0; k < 3; ++k)
@@ -78,4 +78,4 @@ class RotationalLift : public Lift {
   }
 };
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 /// Saffman (1965): C_LS = 4.1126 Re_s^-0.5 as Re -> 0, force 1.615 d^2 sqrt(rho mu/|w|) (u x w).
 constexpr double kSaffman = 4.1126;
@@ -58,15 +58,15 @@ constexpr double kNegligibleShear = 1e-12;
 /// particle meets it. A particle that lags is driven to the faster side.
 inline void shear_lift_force(double density, double viscosity, double d, const double* slip, const double* vorticity,
                              double* force) {
-  const double speed = norm(slip);
-  const double w = norm(vorticity);
+  const double speed = base::norm(slip);
+  const double w = base::norm(vorticity);
   if (!(w * d > kNegligibleShear * speed) || speed == 0.0) {
     force[0] = force[1] = force[2] = 0.0;
     return;
   }
   const double scale = kPi / 8.0 * density * d * d * d *
                        saffman_mei_coefficient(density * d * d * w / viscosity, density * d * speed / viscosity);
-  cross(slip, vorticity, force);
+  base::cross(slip, vorticity, force);
   for (int k = 0; k < 3; ++k)
     force[k] *= scale;
 }
@@ -75,8 +75,8 @@ inline void shear_lift_force(double density, double viscosity, double d, const d
 /// Re -> 0: (pi/8) rho d^3 Om x u.
 inline void rotational_lift_force(double density, double viscosity, double d, const double* slip, const double* spin,
                                   double* force) {
-  const double speed = norm(slip);
-  const double rate = norm(spin);
+  const double speed = base::norm(slip);
+  const double rate = base::norm(spin);
   if (!(rate * d > kNegligibleShear * speed) || speed == 0.0) {
     force[0] = force[1] = force[2] = 0.0;
     return;
@@ -84,9 +84,9 @@ inline void rotational_lift_force(double density, double viscosity, double d, co
   const double coefficient =
       OesterleBuiDinh::coefficient(density * d * d * rate / viscosity, density * d * speed / viscosity);
   const double scale = kPi / 8.0 * density * d * d * coefficient * speed / rate;
-  cross(spin, slip, force);
+  base::cross(spin, slip, force);
   for (int k = 0; k < 3; ++k)
     force[k] *= scale;
 }
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 class LogHistogram {
  public:
@@ -71,4 +71,4 @@ class LogHistogram {
   double largest_ = 0.0;
 };
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

@@ -3,7 +3,7 @@
 // The dimensionless numbers of a particle in a flow.
 #pragma once
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 enum Number : int {
   kReynolds,       ///< Re_HB, eq (23)
@@ -19,4 +19,4 @@ enum Number : int {
 constexpr const char* kNumberNames[kNumbers] = {"Re_HB", "Bi",   "Stokes",      "Re_s",
                                                 "Re_r",  "beta", "d|Om|/(2 U)", "rho_p/rho_f"};
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

@@ -10,10 +10,10 @@
 #include <array>
 #include <cmath>
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 /// All numbers of local atom i; what needs a quantity that is not sampled, or a slip where there is none, is 0.
-inline std::array<double, kNumbers> particle_numbers(const Kick& kick, int i, const Rheology& fluid) {
+inline std::array<double, kNumbers> particle_numbers(const HalfStep& kick, int i, const Rheology& fluid) {
   std::array<double, kNumbers> n{};
   const double d = 2.0 * kick.radius[i];
   n[kDensityRatio] = kick.mass[i] / sphere_volume(kick.radius[i]) / fluid.density;
@@ -21,7 +21,7 @@ inline std::array<double, kNumbers> particle_numbers(const Kick& kick, int i, co
   if (kick.samples.velocity)
     for (int k = 0; k < 3; ++k)
       slip[k] = kick.samples.velocity[i][k] - kick.velocity[i][k];
-  const double speed = norm(slip);
+  const double speed = base::norm(slip);
   if (speed > 0.0) {
     n[kReynolds] = reynolds_herschel_bulkley(fluid, speed, d);
     n[kBingham] = bingham(fluid, speed, d);
@@ -32,14 +32,14 @@ inline std::array<double, kNumbers> particle_numbers(const Kick& kick, int i, co
       spin[k] = 0.5 * kick.samples.vorticity[i][k] - kick.spin[i][k];
     const double viscosity = fluid.newtonian() ? fluid.consistency : particle_viscosity(fluid, speed, d);
     const double per_rate = fluid.density * d * d / viscosity;
-    n[kShearReynolds] = per_rate * norm(kick.samples.vorticity[i]);
-    n[kSpinReynolds] = per_rate * norm(spin);
+    n[kShearReynolds] = per_rate * base::norm(kick.samples.vorticity[i]);
+    n[kSpinReynolds] = per_rate * base::norm(spin);
     if (n[kReynolds] > 0.0) {
       n[kShearParameter] = 0.5 * n[kShearReynolds] / n[kReynolds];
-      n[kSpinParameter] = 0.5 * d * norm(spin) / speed;
+      n[kSpinParameter] = 0.5 * d * base::norm(spin) / speed;
     }
   }
   return n;
 }
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <utility>
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 double projected_area(const std::vector<shape::Sphere>& spheres, const Eigen::Vector3d& direction, int lines) {
   const Eigen::Vector3d n = direction.normalized();
@@ -77,4 +77,4 @@ double ProjectedAreaTable::at(const Eigen::Vector3d& direction) const {
          fp * ((1.0 - fa) * area(p0 + 1, a0) + fa * area(p0 + 1, a1));
 }
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 /// Area of the projection of a union of spheres onto the plane normal to `direction` (any length, body frame) [m2].
 /// Scan lines with exact intervals; relative error below 1e-3 at this many lines.
@@ -26,4 +26,4 @@ class ProjectedAreaTable {
   std::vector<double> areas_;
 };
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -86,4 +86,4 @@ inline double particle_viscosity(const Rheology& f, double speed, double diamete
   return HerschelBulkleyStress(f)(speed, 1.0 / diameter).value * diameter / speed;
 }
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

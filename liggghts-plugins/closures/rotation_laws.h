@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 /// Dennis, Singh & Ingham (1980), eq (25): C_DR = 64 pi/Re_r below 32 (exact for Re_r -> 0: Kirchhoff, T = pi mu d^3
 /// Om), 12.9/sqrt(Re_r) + 128.4/Re_r to 1000 (a jump of 0.155 %); above, C_DR stays at its value at 1000. Torque:
@@ -53,4 +53,4 @@ template <> struct SpinStress<NewtonianStress> {
   ValueAndSlope operator()(double spin, double) const { return stress(spin, 1.0); }
 };
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

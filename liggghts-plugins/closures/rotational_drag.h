@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 template <class Stress> class RotationalDrag : public Effect {
  public:
@@ -19,7 +19,7 @@ template <class Stress> class RotationalDrag : public Effect {
       : stress_(fluid), density_(fluid.density), newtonian_(fluid.newtonian()) {}
 
   const char* name() const override { return "drag_torque"; }
-  unsigned needs() const override { return newtonian_ ? kVorticity : kVorticity | kVelocity; }
+  unsigned needs() const override { return newtonian_ ? link::kVorticity : link::kVorticity | link::kVelocity; }
   void prepare(const ShapeCatalogue& shapes) override {
     gyration_.clear();
     for (int kind = 0; kind < shapes.kinds(); ++kind)
@@ -28,7 +28,7 @@ template <class Stress> class RotationalDrag : public Effect {
 
   bool is_torque() const override { return true; }
   std::vector<Validity> validity() const override { return {{kSpinReynolds, 0.0, Dennis::kHighestRe}}; }
-  void apply(const Kick& kick) override {
+  void apply(const HalfStep& kick) override {
     double sum[3] = {0.0, 0.0, 0.0};
     for (int i = 0; i < kick.count; ++i) {
       if (!(kick.mask[i] & kick.group))
@@ -40,19 +40,19 @@ template <class Stress> class RotationalDrag : public Effect {
         double slip[3];
         for (int k = 0; k < 3; ++k)
           slip[k] = kick.samples.velocity[i][k] - kick.velocity[i][k];
-        slip_rate = norm(slip) / d;
+        slip_rate = base::norm(slip) / d;
       }
       double spin[3], free[3];
       for (int k = 0; k < 3; ++k) {
         spin[k] = 0.5 * kick.samples.vorticity[i][k] - kick.spin[i][k];
         free[k] = spin[k] - compliance * kick.torque[i][k];
       }
-      const double free_spin = norm(free);
+      const double free_spin = base::norm(free);
       if (!(free_spin > 0.0))
         continue;
       const Resistance<SpinStress<Stress>, Dennis> drag{
           {stress_, slip_rate}, Dennis(), Dennis::kAreaPart * d * d * d, 1.0, density_ * d * d};
-      const ImplicitSlip step = implicit_slip(drag, free_spin, compliance, norm(spin));
+      const ImplicitSlip step = implicit_slip(drag, free_spin, compliance, base::norm(spin));
       const double coefficient = step.resistance / free_spin;
       const bool held = kick.mask[i] & kick.frozen;
       for (int k = 0; k < 3; ++k) {
@@ -72,4 +72,4 @@ template <class Stress> class RotationalDrag : public Effect {
   std::vector<double> gyration_; ///< smallest moment of inertia over m R_eq^2, by kind
 };
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

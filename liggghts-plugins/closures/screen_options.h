@@ -3,7 +3,7 @@
 // How long and how sharply a screen looks at the effects.
 #pragma once
 
-namespace eccentra::fluid {
+namespace eccentra::closures {
 
 struct ScreenOptions {
   double tolerance = 0.0; ///< 0: no screen
@@ -11,4 +11,4 @@ struct ScreenOptions {
   int recheck = 100000;   ///< steps from a verdict to the next measurement; 0: never again
 };
 
-} // namespace eccentra::fluid
+} // namespace eccentra::closures

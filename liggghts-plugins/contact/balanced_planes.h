@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace eccentra::cluster {
+namespace eccentra::contact {
 
 /// `planes`: the present ones as fractions of the box, from 0 to 1, one more than slabs. `counts`: bodies in equal bins
 /// over the box, all ranks together. Returns planes nearer to equal shares: each moves at most half of the way to its
@@ -45,4 +45,4 @@ inline std::vector<double> balanced_planes(const std::vector<double>& planes, co
   return next;
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::contact

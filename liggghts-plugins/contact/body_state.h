@@ -3,7 +3,7 @@
 // Bodies as contacts see them; pure.
 #pragma once
 
-namespace eccentra::cluster {
+namespace eccentra::contact {
 
 /// Four numbers that the compiler keeps in one register (or two), on any machine.
 typedef float Float4 __attribute__((vector_size(16)));
@@ -48,4 +48,4 @@ struct alignas(64) BodyForce {
   Double4 torque = {}; ///< about the centre of mass [N m]
 };
 
-} // namespace eccentra::cluster
+} // namespace eccentra::contact

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace eccentra::cluster {
+namespace eccentra::contact {
 
 SearchResult CandidateSearch::search(const SurfaceSpheres& a, float extra_a, const SurfaceSpheres& b, float extra_b,
                                      const RelativePose& pose, float skin) {
@@ -145,7 +145,7 @@ int overlapping_candidates(const PosedShapes& shapes, const int* ids, int count,
   return kept;
 }
 
-float least_gap(const PosedShapes& shapes, const int* ids, int count) {
+float min_gap(const PosedShapes& shapes, const int* ids, int count) {
   const Separation separation(shapes, shapes.extra);
   float least = std::numeric_limits<float>::max();
   for (int n = 0; n < count; ++n) {
@@ -155,4 +155,4 @@ float least_gap(const PosedShapes& shapes, const int* ids, int count) {
   return least;
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::contact

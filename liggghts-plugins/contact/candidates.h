@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace eccentra::cluster {
+namespace eccentra::contact {
 
 /// A pair of sub-spheres as one number: a's index in the upper half, b's in the lower.
 constexpr int contact_id(int a, int b) {
@@ -119,6 +119,6 @@ struct PosedShapes {
 int overlapping_candidates(const PosedShapes& shapes, const int* ids, int count, float margin, int* hits);
 
 /// The least gap between the sub-spheres of the candidates [m].
-float least_gap(const PosedShapes& shapes, const int* ids, int count);
+float min_gap(const PosedShapes& shapes, const int* ids, int count);
 
-} // namespace eccentra::cluster
+} // namespace eccentra::contact

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace eccentra::cluster {
+namespace eccentra::contact {
 
 /// Which damping: stock's exact Hertz value sqrt(5) beta, or the paper's 2 beta (eq 13-17).
 enum class DampingLaw { stock, paper };
@@ -155,4 +155,4 @@ inline void contact_forces(Block& c, int n, double dt, bool advance) {
   }
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::contact

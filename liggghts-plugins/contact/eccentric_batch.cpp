@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-namespace eccentra::rolling {
+namespace eccentra::contact {
 namespace {
 
 using Lanes = EightLanes;
@@ -110,4 +110,4 @@ void EccentricBatch::fill_by_cell(const SupportTable& shape) {
   }
 }
 
-} // namespace eccentra::rolling
+} // namespace eccentra::contact

@@ -7,7 +7,7 @@
 
 #include <array>
 
-namespace eccentra::rolling {
+namespace eccentra::contact {
 
 /// Sides of contacts (a contact has one per particle) that wait for their torques. World frame, SI.
 class EccentricBatch {
@@ -61,4 +61,4 @@ class EccentricBatch {
   std::array<Row, 3> torque_{};
 };
 
-} // namespace eccentra::rolling
+} // namespace eccentra::contact

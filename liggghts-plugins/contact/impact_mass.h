@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace eccentra::cluster {
+namespace eccentra::contact {
 
 /// A frictionless impact at arm r from the centre of mass, with normal n, sees the mass m_c = 1 / (1/m + (r x n) . I^-1
 /// (r x n)). Dampers tuned to m instead of m_c take too much: at a rim sphere of a disk tilted by 30 degrees (m_c =
@@ -41,4 +41,4 @@ class ImpactMass {
   Eigen::Matrix<double, 6, 1> stiffness_ = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
-} // namespace eccentra::cluster
+} // namespace eccentra::contact

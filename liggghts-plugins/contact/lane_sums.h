@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-namespace eccentra::rolling {
+namespace eccentra::contact {
 
 using EightLanes = Eigen::Array<double, 8, 1>;
 
@@ -40,4 +40,4 @@ inline double largest_lane(const EightLanes& v) {
   return std::max(two[0], two[1]);
 }
 
-} // namespace eccentra::rolling
+} // namespace eccentra::contact

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eccentra::cluster {
+namespace eccentra::contact {
 
 /// Pairs of bodies A and B that touch, as structure of arrays; world frame. No more pairs than contacts in a block.
 struct PairBlock {
@@ -109,4 +109,4 @@ inline void off_centre_factors(PairBlock& p, int n) {
   }
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::contact

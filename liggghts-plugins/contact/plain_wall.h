@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eccentra::cluster {
+namespace eccentra::contact {
 
 /// A primitive wall as plain numbers.
 struct PlainWall {
@@ -113,4 +113,4 @@ inline int spheres_at_wall(const PlainWall& wall, const double* from, const doub
   return kept;
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::contact

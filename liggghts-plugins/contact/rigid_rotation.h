@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace eccentra::cluster {
+namespace eccentra::contact {
 
 /// Row-major matrix that turns body into world, from the unit quaternion q.
 inline void rotation_matrix(const double* q, double* r) {
@@ -170,4 +170,4 @@ class FreeRotation {
   double world_rate_ = 1;
 };
 
-} // namespace eccentra::cluster
+} // namespace eccentra::contact

@@ -15,7 +15,7 @@
 
 #include <vector>
 
-namespace eccentra::rolling {
+namespace eccentra::contact {
 
 /// Spin that a particle would have at the next half step without further torque, and what one unit of torque does to
 /// it.
@@ -123,4 +123,4 @@ template <class Apply> void RollingLimiter::sweep(const std::vector<TrialSpin>& 
   }
 }
 
-} // namespace eccentra::rolling
+} // namespace eccentra::contact

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eccentra::rolling {
+namespace eccentra::contact {
 
 /// Eq (33): the coefficient that carries shape, mu_r + delta_e / R_eq. Both are >= 0 and without unit.
 inline double effective_coefficient(double mu_r, double mu_shape) {
@@ -75,4 +75,4 @@ inline SpringDashpot spring_dashpot(const Eigen::Vector3d& remembered, const Eig
   return {trial, bounded(trial - dashpot * spin, cap)};
 }
 
-} // namespace eccentra::rolling
+} // namespace eccentra::contact

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eccentra::cluster {
+namespace eccentra::contact {
 
 /// Springs in parallel add, but dampers tuned to each spring alone do not: N equal contacts with gamma_k(S_k) each add
 /// up to sqrt(N) times what returns e (stock: e_eff = e^sqrt(N)). What does return e, for any elastic force F with work
@@ -87,4 +87,4 @@ template <class Block> inline void finish_shared_sums(Block& c, int n) {
   }
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::contact

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace eccentra::rolling {
+namespace eccentra::contact {
 
 SupportTable::SupportTable(const shape::ClusterShape& shape) {
   const double unit = 1.0 / shape.equivalent_radius();
@@ -147,4 +147,4 @@ double SupportTable::reach(const Eigen::Vector3d& d) const {
   return reach;
 }
 
-} // namespace eccentra::rolling
+} // namespace eccentra::contact

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <vector>
 
-namespace eccentra::rolling {
+namespace eccentra::contact {
 
 /// Eight sub-spheres side by side, in units of the particle's radius; places that are not taken reach nowhere.
 struct SphereBlock {
@@ -108,4 +108,4 @@ inline Eigen::Vector3d turned_moment(const SupportTable& shape, const Eigen::Qua
   return to_world * shape.moment(to_body * d, depth, {load.push, load.drag, to_body * load.across});
 }
 
-} // namespace eccentra::rolling
+} // namespace eccentra::contact

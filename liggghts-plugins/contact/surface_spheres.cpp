@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace eccentra::cluster {
+namespace eccentra::contact {
 
 SurfaceSpheres::SurfaceSpheres() : count(1), x(1, 0.), y(1, 0.), z(1, 0.), r(1, 0.) {
   finish();
@@ -54,4 +54,4 @@ void SurfaceSpheres::finish() {
   single_at_centre = count == 1 && bounding_radius <= r[0] * (1 + centred);
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::contact

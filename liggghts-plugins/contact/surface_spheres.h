@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace eccentra::cluster {
+namespace eccentra::contact {
 
 /// Structure of arrays, body frame [m]; index k is what contacts call a sub-sphere. The single-precision copies are
 /// padded to whole vectors with spheres that touch nothing; they only preselect, forces use the double values.
@@ -35,4 +35,4 @@ struct SurfaceSpheres {
   void finish();
 };
 
-} // namespace eccentra::cluster
+} // namespace eccentra::contact

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace eccentra::cluster {
+namespace eccentra::contact {
 
 /// Linear stiffness and damping of one contact.
 struct ContactStiffness {
@@ -78,4 +78,4 @@ class BodyStiffness {
   int contacts_ = 0;
 };
 
-} // namespace eccentra::cluster
+} // namespace eccentra::contact

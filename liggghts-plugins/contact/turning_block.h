@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace eccentra::cluster {
+namespace eccentra::contact {
 
 /// The turn of one body is a long chain of operations, each of which waits for the one before: side by side they take
 /// little longer than one alone. Structure of arrays, whole vectors, so that rounding does not depend on a body's
@@ -71,4 +71,4 @@ inline void turn_all(TurningBlock& b) {
   }
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::contact

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-namespace eccentra::cluster {
+namespace eccentra::contact {
 
 /// World frame, SI. Vectors that start at the body's centre are free of periodic images.
 struct WallTouch {
@@ -26,4 +26,4 @@ struct WallTouch {
   int triangle;                  ///< local index in the mesh of key.mesh(); -1 for primitive walls
 };
 
-} // namespace eccentra::cluster
+} // namespace eccentra::contact

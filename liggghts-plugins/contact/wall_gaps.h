@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace eccentra::cluster {
+namespace eccentra::contact {
 
 /// gap[k] [m] for k < spheres.count, negative where sub-sphere k overlaps the wall. `x` is the body's centre,
 /// `rotation` its row-major matrix from body to world. Directions of the wall are turned into the body frame once, so
@@ -45,4 +45,4 @@ inline void wall_gaps(const WallSurface& wall, const Eigen::Vector3d& x, const E
   }
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::contact

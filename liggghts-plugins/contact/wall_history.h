@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace eccentra::cluster {
+namespace eccentra::contact {
 
 /// Names one contact of an atom with a wall fix: sub-sphere, mesh and triangle (0 and 0 for a primitive wall).
 /// Exactly representable in a double, in which it travels.
@@ -98,4 +98,4 @@ class WallHistory {
   std::vector<Entries> of_atom_;
 };
 
-} // namespace eccentra::cluster
+} // namespace eccentra::contact

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace eccentra::cluster {
+namespace eccentra::contact {
 
 /// Where a point stands with respect to a wall. World frame, metres.
 struct WallPoint {
@@ -90,4 +90,4 @@ class WallSurface {
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
 };
 
-} // namespace eccentra::cluster
+} // namespace eccentra::contact

@@ -22,11 +22,11 @@ std::vector<Sphere> read_clump(const std::string& path) {
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     line.erase(std::min(line.find('#'), line.size()));
-    std::istringstream words(line);
+    std::istringstream arguments(line);
     std::array<double, 4> value{};
     std::size_t count = 0;
     const std::string where = "clump file '" + path + "' line " + std::to_string(number) + ": ";
-    for (std::string word; words >> word; ++count) {
+    for (std::string word; arguments >> word; ++count) {
       char* end = nullptr;
       const double number_read = std::strtod(word.c_str(), &end);
       if (*end || !std::isfinite(number_read))

@@ -59,11 +59,12 @@ class ClusterShape {
   double smallest_radius_;
 };
 
-/// Reads shape words as users type them, from arg[first] on: `sphere 1 | sphere 6 | cube N | disk 7|19|48 |
+/// Reads shape arguments as users type them, from arg[first] on: `sphere 1 | sphere 6 | cube N | disk 7|19|48 |
 /// file NAME.clump [scale S] |
-/// stl NAME.stl spheres N|error E [scale S] [mass union|solid] [resolution M]`. `used` becomes the number of words
+/// stl NAME.stl spheres N|error E [scale S] [mass union|solid] [resolution M]`. `used` becomes the number of arguments
 /// consumed. `diameter` [m] of the sphere of equal volume; <= 0 keeps the size that a file gives. Throws
 /// std::invalid_argument with one sentence that names the word, its value and the remedy.
-ClusterShape make_shape(const std::vector<std::string>& words, std::size_t first, std::size_t& used, double diameter);
+ClusterShape make_shape(const std::vector<std::string>& arguments, std::size_t first, std::size_t& used,
+                        double diameter);
 
 } // namespace eccentra::shape

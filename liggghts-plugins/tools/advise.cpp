@@ -4,7 +4,7 @@
 #include "tools/advise.h"
 
 #include "shape/eccentricity.h"
-#include "shape/shape_words.h"
+#include "shape/shape_keywords.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -3,7 +3,7 @@
 // clusterShape: from the command line to the shape and to what was asked about it.
 #include "shape/builtin_shapes.h"
 #include "shape/clump_file.h"
-#include "shape/shape_words.h"
+#include "shape/shape_keywords.h"
 #include "shape/vtk/picture.h"
 #include "shape/vtk/stl_shape.h"
 #include "tools/advise.h"
@@ -28,8 +28,8 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-/// Lets a bare file name stand for `file NAME` or `stl NAME`, and adds the options that belong to these words.
-std::vector<std::string> complete_words(const ShapeArguments& a, const std::vector<std::string>& typed) {
+/// Lets a bare file name stand for `file NAME` or `stl NAME`, and adds the options that belong to these arguments.
+std::vector<std::string> complete_arguments(const ShapeArguments& a, const std::vector<std::string>& typed) {
   std::vector<std::string> words;
   for (std::size_t k = 0; k < typed.size(); ++k) {
     std::string name = typed[k];
@@ -166,8 +166,8 @@ void report_stl(const ShapeArguments& a, const std::string& path) {
   write_files(a, {shape});
 }
 
-/// Takes words that a LIGGGHTS script would have behind a shape ("diameter 6.35e-3", "spheres 50") for the options they
-/// name.
+/// Takes arguments that a LIGGGHTS script would have behind a shape ("diameter 6.35e-3", "spheres 50") for the options
+/// they name.
 ShapeArguments with_script_words(ShapeArguments a) {
   std::vector<std::string> rest;
   for (std::size_t k = 0; k < a.words.size(); ++k) {
@@ -227,7 +227,7 @@ void run(const ShapeArguments& typed) {
   }
   const bool compare = a.words[0] == "compare";
   const std::vector<std::string> words =
-      complete_words(a, std::vector<std::string>(a.words.begin() + (compare ? 1 : 0), a.words.end()));
+      complete_arguments(a, std::vector<std::string>(a.words.begin() + (compare ? 1 : 0), a.words.end()));
   require_stl_options_fit(a, words);
   if (!compare && words[0] == "stl") {
     const std::string& path = word_at(words, 1, "the name of an STL file after 'stl'");
@@ -261,7 +261,7 @@ int main(int argc, char** argv) {
   if (!read_arguments(argc, argv, arguments, exit_code))
     return exit_code;
   try {
-    install_stl_words();
+    install_stl_keywords();
     run(arguments);
   } catch (const std::exception& e) {
     std::fflush(stdout);

@@ -24,7 +24,7 @@ void print_styles() {
   std::printf("usage: eccentra-dem -in SCRIPT [-resume] [any option of liggghts]\n"
               "  -resume: go on from the newest complete checkpoint of a coupled run (docs/checkpoints.md)\n\nStyles "
               "beyond those of LIGGGHTS:\n");
-  for (const auto& record : eccentra::host::style_records())
+  for (const auto& record : eccentra::styles::style_records())
     std::printf("  %-17s %-34s %s\n", record.kind.c_str(), record.name.c_str(), record.summary.c_str());
 }
 
@@ -40,7 +40,7 @@ void install_signal_handlers() {
 }
 
 /// Words of the command line that make the script go on from the newest complete checkpoint; the same on all ranks.
-std::vector<std::string> words_to_resume() {
+std::vector<std::string> arguments_to_resume() {
   using namespace eccentra::link;
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
       words.emplace_back(argv[i]);
       continue;
     }
-    const std::vector<std::string> more = words_to_resume();
+    const std::vector<std::string> more = arguments_to_resume();
     words.insert(words.end(), more.begin(), more.end());
   }
   std::vector<char*> arguments;

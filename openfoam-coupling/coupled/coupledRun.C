@@ -3,13 +3,13 @@
 // A coupled run from its dictionary to its end, over either link.
 #include "coupled/coupledRun.H"
 
-#include "coupled/demHost.h"
+#include "coupled/appliedForces.H"
+#include "coupled/embeddedDem.h"
 #include "coupled/fluidCheckpoint.H"
 #include "coupled/statedTerms.H"
-#include "coupled/toldForces.H"
 #include "support/arithmeticFault.H"
-#include "support/hostGuards.H"
 #include "support/inputError.H"
+#include "support/processGuards.H"
 
 #include "link/socket/fluid_server.h"
 #include "link/stop_signal.h"
@@ -30,7 +30,7 @@ using namespace Foam;
 namespace {
 
 constexpr unsigned kOffered =
-    fluid::kVelocity | fluid::kFraction | fluid::kPressureGradient | fluid::kStressDivergence | fluid::kVorticity;
+    link::kVelocity | link::kFraction | link::kPressureGradient | link::kStressDivergence | link::kVorticity;
 /// Meetings from one report to the next.
 constexpr label kReportEvery = 10;
 
@@ -126,7 +126,7 @@ void coupledRun::hostScript() {
 
 void coupledRun::serveSocket() {
   const fileName address(properties_.get<fileName>("address"));
-  link::Patience patience;
+  link::Timeout patience;
   patience.silence = properties_.getOrDefault<scalar>("timeout", patience.silence);
   patience.arrival = properties_.getOrDefault<scalar>("wait", patience.arrival);
   // A relative Unix path is relative to the case.

@@ -4,7 +4,7 @@
 #include "coupled/coupledRun.H"
 
 #include "coupled/fluidCheckpoint.H"
-#include "support/hostGuards.H"
+#include "support/processGuards.H"
 
 #include "Time.H"
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Both sides at the same time: from one meeting to the next the flow takes its step with the particles and impulses of
-// the first one, while DEM runs the same interval with the samples of the first one.
+// Both sides at the same time: from one coupling step to the next the flow takes its step with the particles and
+// impulses of the first one, while DEM runs the same interval with the samples of the first one.
 #include "coupled/coupledRun.H"
 
-#include "coupled/toldForces.H"
-#include "support/hostGuards.H"
+#include "coupled/appliedForces.H"
+#include "support/processGuards.H"
 #include "support/stopwatch.H"
 
 #include "link/stop_signal.h"
@@ -29,10 +29,10 @@ void coupledRun::advance() {
   const scalar left = timeStep_.partOf(interval_, flow_->CourantNo());
   ++time_;
   setFraction(before, overlap_.after, 1 - left / interval_);
-  overlap_.told = std::make_unique<toldForces>(*flow_, requests_.asked());
-  const bool due = takeSteps(left, before, overlap_.after, *overlap_.told);
+  overlap_.applied = std::make_unique<appliedForces>(*flow_, requests_.asked());
+  const bool due = takeSteps(left, before, overlap_.after, *overlap_.applied);
   overlap_.fields = {};
-  overlap_.told->complete(flow_->alpha(), time_.deltaTValue() / interval_, overlap_.fields);
+  overlap_.applied->complete(flow_->alpha(), time_.deltaTValue() / interval_, overlap_.fields);
   overlap_.seconds = watch.lap();
   if (due)
     time_.writeNow();
@@ -53,26 +53,26 @@ void coupledRun::returnDifference(const scalarField& assumedSolid, const exchang
   flow_->particleForce().correctBoundaryConditions();
 }
 
-int coupledRun::meetAhead(const link::Meeting& meeting, const link::ParticleArrays& particles,
-                          const fluid::FluidSamples& samples) {
-  if (overlap_.ahead != (meeting.elapsed > 0))
+int coupledRun::exchangeAhead(const link::CouplingStep& couplingStep, const link::ParticleArrays& particles,
+                              const link::FluidSamples& samples) {
+  if (overlap_.ahead != (couplingStep.elapsed > 0))
     throw link::Refusal("the DEM side spoke out of turn: install the same release of Eccentra on both sides");
   overlap_.ahead = false;
   const bool first = !exchange_;
   if (first)
-    begin(meeting);
-  const bool news = requests_.changes(meeting);
-  follow(meeting);
+    begin(couplingStep);
+  const bool news = requests_.changes(couplingStep);
+  follow(couplingStep);
   stopwatch watch;
-  PartSeconds seconds(meeting);
+  PartSeconds seconds(couplingStep);
   seconds.fluid = overlap_.seconds;
   seconds.together = std::max(seconds.dem.wall, seconds.fluid.wall);
 
   exchange::FlowFields fields = overlap_.fields;
   // Quantities that nobody asked for while the flow advanced are those of its end.
-  std::unique_ptr<toldForces> present;
-  if (news || !overlap_.told) {
-    present = std::make_unique<toldForces>(*flow_, meeting.needed);
+  std::unique_ptr<appliedForces> present;
+  if (news || !overlap_.applied) {
+    present = std::make_unique<appliedForces>(*flow_, couplingStep.needed);
     present->complete(flow_->alpha(), 1, fields);
   }
   if (!samples.pressure_gradient)
@@ -87,18 +87,18 @@ int coupledRun::meetAhead(const link::Meeting& meeting, const link::ParticleArra
   // What the flow gives reaches the particles an interval later still: it is told as it is
   // (docs/couplingProperties.md).
   scalarField unused;
-  overlap_.after = receive(meeting, particles, start, unused);
+  overlap_.after = receive(couplingStep, particles, start, unused);
   if (start) {
     setFraction(overlap_.after, overlap_.after, 1);
     flow_->resetFractionHistory();
   }
   exchange_->sample(fields, particles, samples);
-  if (meeting.elapsed > 0)
+  if (couplingStep.elapsed > 0)
     returnDifference(assumedSolid, fields);
   seconds.exchange = watch.lap();
   const vector onItsWay(interval_ * flow_->rho() *
                         gSum(vectorField(mesh_.V() * flow_->particleForce().primitiveField())));
-  report_->add(*flow_, *exchange_, meeting, seconds, onItsWay);
+  report_->add(*flow_, *exchange_, couplingStep, seconds, onItsWay);
   return returnReduce(label(link::stop_signal()), maxOp<label>());
 }
 

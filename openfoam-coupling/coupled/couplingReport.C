@@ -39,9 +39,9 @@ vector vectorOf(const double* v) {
 
 } // namespace
 
-PartSeconds::PartSeconds(const link::Meeting& meeting) {
-  dem = {meeting.dem_seconds, meeting.dem_seconds - meeting.load.mean_seconds};
-  link.wall = meeting.pack_seconds;
+PartSeconds::PartSeconds(const link::CouplingStep& couplingStep) {
+  dem = {couplingStep.dem_seconds, couplingStep.dem_seconds - couplingStep.load.mean_seconds};
+  link.wall = couplingStep.pack_seconds;
 }
 
 PartSeconds& PartSeconds::operator+=(const PartSeconds& more) {
@@ -54,7 +54,7 @@ PartSeconds& PartSeconds::operator+=(const PartSeconds& more) {
 }
 
 couplingReport::couplingReport(const fvMesh& mesh, const link::DemTerms& dem, int every, const dictionary* earlier)
-    : mesh_(mesh), every_(every), interval_(dem.time_step * dem.interval), stepsPerMeeting_(dem.interval),
+    : mesh_(mesh), every_(every), interval_(dem.time_step * dem.interval), stepsPerCouplingStep_(dem.interval),
       started_(std::chrono::steady_clock::now()) {
   const vector gravity(vectorOf(dem.gravity));
   const vector across(gravity - axis_ * (axis_ & gravity));
@@ -67,7 +67,7 @@ couplingReport::couplingReport(const fvMesh& mesh, const link::DemTerms& dem, in
   const boundBox box(mesh.points(), true);
   length_ = box.span() & axis_;
   if (earlier) {
-    meetings_ = earlier->get<label>("meetings");
+    couplingSteps_ = earlier->get<label>("meetings");
     initially_ = std::llround(earlier->get<scalar>("initially"));
     before_ = {earlier->get<scalar>("dem"), earlier->get<scalar>("fluid"), earlier->get<scalar>("exchange"),
                earlier->get<scalar>("link")};
@@ -106,7 +106,7 @@ std::array<double, 4> couplingReport::parts() const {
 
 dictionary couplingReport::state() const {
   dictionary state;
-  state.add("meetings", label(meetings_));
+  state.add("meetings", label(couplingSteps_));
   state.add("initially", scalar(initially_));
   const std::array<double, 4> parts = this->parts();
   state.add("dem", parts[0]);
@@ -132,14 +132,14 @@ double couplingReport::pressureDrop(const averagedFlow& flow) const {
 }
 
 // What is on its way from one side to the other counts: the force that semi-implicit drag held back, and the pressure
-// and viscous forces that the particles receive until the next meeting or are still owed.
+// and viscous forces that the particles receive until the next coupling step or are still pending.
 vector couplingReport::totalMomentum(averagedFlow& flow, const exchange::particleExchange& exchange,
-                                     const link::Meeting& meeting) const {
+                                     const link::CouplingStep& couplingStep) const {
   const scalar step = mesh_.time().deltaTValue();
   const vectorField& withheld = flow.withheldForce().primitiveField();
   const vectorField perVolume(flow.alpha().primitiveField() * flow.U().primitiveField() + step * withheld);
   const vector fluid(flow.rho() * gSum(vectorField(mesh_.V() * perVolume)));
-  return vectorOf(meeting.totals.momentum) + fluid + interval_ * vectorOf(exchange.balance().pendingForce.data());
+  return vectorOf(couplingStep.totals.momentum) + fluid + interval_ * vectorOf(exchange.balance().pendingForce.data());
 }
 
 couplingReport::Bed couplingReport::bed(const volScalarField& alpha) const {
@@ -154,32 +154,32 @@ couplingReport::Bed couplingReport::bed(const volScalarField& alpha) const {
   }
   bed.height = lowest_ - returnReduce(highest, minOp<scalar>());
   bed.area = returnReduce(volume, sumOp<scalar>()) / length_;
-  bed.leastFraction = gMin(alpha.primitiveField());
+  bed.minFraction = gMin(alpha.primitiveField());
   return bed;
 }
 
-void couplingReport::add(averagedFlow& flow, const exchange::particleExchange& exchange, const link::Meeting& meeting,
-                         const PartSeconds& seconds, const vector& onItsWay) {
+void couplingReport::add(averagedFlow& flow, const exchange::particleExchange& exchange,
+                         const link::CouplingStep& couplingStep, const PartSeconds& seconds, const vector& onItsWay) {
   total_ += seconds;
   // Crossing between ranks is the link's work, wherever it is done.
-  const exchange::guests::Traffic& traffic = exchange.present().traffic();
+  const exchange::particlePoints::Traffic& traffic = exchange.present().traffic();
   const Seconds crossing{traffic.seconds - traffic_.seconds, traffic.waited - traffic_.waited};
   total_.exchange += {-crossing.wall, -crossing.waited};
   total_.link += crossing;
   traffic_ = traffic;
-  ++meetingsHere_;
-  steps_ += meeting.elapsed > 0;
-  demLoad_.add(meeting);
+  ++couplingStepsHere_;
+  steps_ += couplingStep.elapsed > 0;
+  demLoad_.add(couplingStep);
   points_ += double(exchange.present().here().size());
-  const bool last = meeting.steps_total > 0 && meeting.steps_done >= meeting.steps_total;
-  if (meetings_++ % every_ == 0 || last)
-    write(flow, exchange, meeting, onItsWay);
+  const bool last = couplingStep.steps_total > 0 && couplingStep.steps_done >= couplingStep.steps_total;
+  if (couplingSteps_++ % every_ == 0 || last)
+    write(flow, exchange, couplingStep, onItsWay);
 }
 
-void couplingReport::write(averagedFlow& flow, const exchange::particleExchange& exchange, const link::Meeting& meeting,
-                           const vector& onItsWay) {
+void couplingReport::write(averagedFlow& flow, const exchange::particleExchange& exchange,
+                           const link::CouplingStep& couplingStep, const vector& onItsWay) {
   const exchange::ExchangeBalance& balance = exchange.balance();
-  const link::DemTotals& totals = meeting.totals;
+  const link::DemTotals& totals = couplingStep.totals;
   const Bed bed = this->bed(flow.alpha());
   const double solid = totals.volume > 0 ? totals.volume : 1.0;
   const vector centre(vectorOf(totals.volume_position) / solid);
@@ -190,7 +190,7 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
                      " is no number; reduce deltaT and the DEM time step together, or every");
   const double courant = flow.CourantNo();
   const double continuity = flow.continuityError();
-  const vector momentum(totalMomentum(flow, exchange, meeting) + onItsWay);
+  const vector momentum(totalMomentum(flow, exchange, couplingStep) + onItsWay);
   const double fastestFluid = gMax(mag(flow.U().primitiveField())());
   const double globalContinuity = flow.globalContinuityError();
   if (initially_ < 0)
@@ -215,8 +215,8 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
   *csv_ << mesh_.time().value() << ',' << totals.particles << ',' << meanVelocity << ',' << gradient << ','
         << concentration << ',' << flux << ',' << centre.x() << ',' << centre.y() << ',' << centre.z() << ','
         << (totals.particles ? lowest_ - (centre & down_) : 0.0) << ',' << bed.height << ',' << bed.area << ','
-        << totals.fastest << ',' << bed.leastFraction << ',' << courant << ',' << continuity << ',' << volumeError
-        << ',' << impulseError << ',' << pressureError;
+        << totals.fastest << ',' << bed.minFraction << ',' << courant << ',' << continuity << ',' << volumeError << ','
+        << impulseError << ',' << pressureError;
   for (const double part : parts)
     *csv_ << ',' << part;
   *csv_ << ',' << totals.inserted << ',' << left << ',' << totals.inserted_mass << ',' << totals.mass << ','
@@ -224,11 +224,12 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
         << std::endl;
 
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-  const double done = meeting.steps_total > 0 ? double(meeting.steps_done) / double(meeting.steps_total) : 0.0;
+  const double done =
+      couplingStep.steps_total > 0 ? double(couplingStep.steps_done) / double(couplingStep.steps_total) : 0.0;
   std::printf("t %.4g s  %3.0f %%  left %.0f s | %lld particles, U %.4g m/s, dp/dz %.4g Pa/m, flux %.3g m3/s, fastest "
               "%.3g m/s, alpha >= %.3f | errors: volume %.1e impulse %.1e pressure %.1e continuity %.1e\n",
               mesh_.time().value(), 100 * done, done > 0 ? elapsed * (1 - done) / done : 0.0,
-              static_cast<long long>(totals.particles), meanVelocity, gradient, flux, totals.fastest, bed.leastFraction,
+              static_cast<long long>(totals.particles), meanVelocity, gradient, flux, totals.fastest, bed.minFraction,
               volumeError, impulseError, pressureError, continuity);
   std::fflush(stdout);
 }
@@ -265,12 +266,13 @@ void couplingReport::printLink(double link, double dem, double fluid) const {
                most = returnReduce(traffic_.bytes, maxOp<scalar>());
   if (!Pstream::master() || steps_ == 0)
     return;
-  const double meeting = link / meetingsHere_, demStep = dem / (double(steps_) * stepsPerMeeting_),
+  const double couplingStep = link / couplingStepsHere_, demStep = dem / (double(steps_) * stepsPerCouplingStep_),
                fluidStep = fluid / steps_;
   std::printf("link: %.3f ms a meeting, %.3g DEM steps or %.3g fluid intervals; %.3g kB a meeting between ranks of the "
               "fluid, at most %.3g from one rank\n",
-              1e3 * meeting, demStep > 0 ? meeting / demStep : 0.0, fluidStep > 0 ? meeting / fluidStep : 0.0,
-              1e-3 * sent / meetingsHere_, 1e-3 * most / meetingsHere_);
+              1e3 * couplingStep, demStep > 0 ? couplingStep / demStep : 0.0,
+              fluidStep > 0 ? couplingStep / fluidStep : 0.0, 1e-3 * sent / couplingStepsHere_,
+              1e-3 * most / couplingStepsHere_);
   std::fflush(stdout);
 }
 

@@ -36,12 +36,12 @@ fieldsOfParts::fieldsOfParts(const fvMesh& mesh, const fileNameList& folders, co
   }
   const bool whole =
       stored == cells_ && faces_ > 0 && mine_.cells.size() == mesh.nCells() && mine_.faces.size() == mesh.nFaces();
-  label mostCell = -1, mostFace = 0;
+  label maxCell = -1, maxFace = 0;
   for (const label cell : mine_.cells)
-    mostCell = max(mostCell, cell);
+    maxCell = max(maxCell, cell);
   for (const label face : mine_.faces)
-    mostFace = max(mostFace, mag(face));
-  if (!whole || mostCell >= cells_ || mostFace > faces_ || returnReduce(mesh.nCells(), sumOp<label>()) != cells_)
+    maxFace = max(maxFace, mag(face));
+  if (!whole || maxCell >= cells_ || maxFace > faces_ || returnReduce(mesh.nCells(), sumOp<label>()) != cells_)
     throw link::Refusal("the checkpoint was written with another division of the mesh, or of another mesh, and the "
                         "addressing of decomposePar does not lead from one to the other: go on with the case and the "
                         "ranks that wrote it");

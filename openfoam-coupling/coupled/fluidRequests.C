@@ -24,11 +24,11 @@ struct Asked {
   const char* name;
   int doubles;
 };
-constexpr Asked kQuantities[] = {{fluid::kVelocity, "velocity", 3},
-                                 {fluid::kFraction, "fraction", 1},
-                                 {fluid::kPressureGradient, "pressureGradient", 3},
-                                 {fluid::kStressDivergence, "stressDivergence", 3},
-                                 {fluid::kVorticity, "vorticity", 3}};
+constexpr Asked kQuantities[] = {{link::kVelocity, "velocity", 3},
+                                 {link::kFraction, "fraction", 1},
+                                 {link::kPressureGradient, "pressureGradient", 3},
+                                 {link::kStressDivergence, "stressDivergence", 3},
+                                 {link::kVorticity, "vorticity", 3}};
 
 /// Bytes of one particle's samples.
 std::size_t bytesToParticles(unsigned needed) {
@@ -45,30 +45,30 @@ std::size_t bytesToFluid(bool extents) {
 
 } // namespace
 
-void fluidRequests::add(const link::Meeting& meeting, bool extents) {
-  asked_ = meeting.needed;
-  ++meetings_;
-  pressureGradients_ += (asked_ & fluid::kPressureGradient) != 0;
-  stressDivergences_ += (asked_ & fluid::kStressDivergence) != 0;
-  velocityGradients_ += (asked_ & (fluid::kVelocity | fluid::kVorticity)) != 0;
-  fractionGradients_ += (asked_ & fluid::kFraction) != 0;
-  bytesToFluid_ += double(meeting.totals.particles) * bytesToFluid(extents);
-  bytesToParticles_ += double(meeting.totals.particles) * bytesToParticles(asked_);
+void fluidRequests::add(const link::CouplingStep& couplingStep, bool extents) {
+  asked_ = couplingStep.needed;
+  ++couplingSteps_;
+  pressureGradients_ += (asked_ & link::kPressureGradient) != 0;
+  stressDivergences_ += (asked_ & link::kStressDivergence) != 0;
+  velocityGradients_ += (asked_ & (link::kVelocity | link::kVorticity)) != 0;
+  fractionGradients_ += (asked_ & link::kFraction) != 0;
+  bytesToFluid_ += double(couplingStep.totals.particles) * bytesToFluid(extents);
+  bytesToParticles_ += double(couplingStep.totals.particles) * bytesToParticles(asked_);
 }
 
-void fluidRequests::print(const link::Meeting& meeting, bool extents, double time, int cells, double length) {
-  Info << "coupling, t " << time << " s: " << int(meeting.totals.particles) << " particles on " << cells
+void fluidRequests::print(const link::CouplingStep& couplingStep, bool extents, double time, int cells, double length) {
+  Info << "coupling, t " << time << " s: " << int(couplingStep.totals.particles) << " particles on " << cells
        << " cells; the fluid is asked for";
   for (const Asked& quantity : kQuantities)
-    if (meeting.needed & quantity.bit)
+    if (couplingStep.needed & quantity.bit)
       Info << " " << quantity.name;
-  Info << (meeting.needed ? "" : " nothing") << "; " << int(bytesToFluid(extents))
-       << " bytes per particle to the fluid, " << int(bytesToParticles(meeting.needed)) << " back; spreading length "
-       << length << " m" << endl;
+  Info << (couplingStep.needed ? "" : " nothing") << "; " << int(bytesToFluid(extents))
+       << " bytes per particle to the fluid, " << int(bytesToParticles(couplingStep.needed))
+       << " back; spreading length " << length << " m" << endl;
 }
 
 void fluidRequests::printSums() const {
-  Info << "computed in " << meetings_ << " meetings: pressureGradient " << pressureGradients_
+  Info << "computed in " << couplingSteps_ << " meetings: pressureGradient " << pressureGradients_
        << " times, stressDivergence " << stressDivergences_ << ", velocity gradient " << velocityGradients_
        << ", fraction gradient " << fractionGradients_ << "; " << bytesToFluid_ / kMegabyte
        << " MB of particles to the fluid, " << bytesToParticles_ / kMegabyte << " MB of samples back" << endl;

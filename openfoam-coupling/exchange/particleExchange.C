@@ -38,10 +38,10 @@ Value linear(const Value& value, const Gradient& gradient, const vector& fromCen
 } // namespace
 
 particleExchange::particleExchange(const fvMesh& mesh, const ExchangeSettings& settings)
-    : mesh_(mesh), settings_(settings), guests_(mesh), overflow_(mesh, settings.mostSolid),
-      solidVolume_(mesh.nCells(), Zero), pressureOwed_(mesh.nCells()), stressOwed_(mesh.nCells()) {
-  if (!(settings.mostSolid > 0 && settings.mostSolid < 1))
-    throw wrong("mostSolid", settings.mostSolid, "give a fraction between 0 and 1, such as 0.74");
+    : mesh_(mesh), settings_(settings), particlePoints_(mesh), overflow_(mesh, settings.maxSolid),
+      solidVolume_(mesh.nCells(), Zero), pressurePending_(mesh.nCells()), stressPending_(mesh.nCells()) {
+  if (!(settings.maxSolid > 0 && settings.maxSolid < 1))
+    throw wrong("mostSolid", settings.maxSolid, "give a fraction between 0 and 1, such as 0.74");
   if (!(settings.fractionFloor >= 0 && settings.fractionFloor < 1))
     throw wrong("fractionFloor", settings.fractionFloor, "give a fraction from 0 to below 1, such as 0.3");
   const bool spreads = settings.method == VoidFraction::diffusion || settings.method == VoidFraction::gaussian;
@@ -61,25 +61,25 @@ particleExchange::particleExchange(const fvMesh& mesh, const ExchangeSettings& s
 
 std::vector<scalarField*> particleExchange::memory() {
   std::vector<scalarField*> fields;
-  pressureOwed_.addMemory(fields);
-  stressOwed_.addMemory(fields);
+  pressurePending_.addMemory(fields);
+  stressPending_.addMemory(fields);
   return fields;
 }
 
 FieldBundle<kWide> particleExchange::gather() const {
-  const std::vector<Guest>& here = guests_.here();
-  const auto amountsOf = [](const Guest& guest) {
+  const std::vector<ParticlePoint>& here = particlePoints_.here();
+  const auto amountsOf = [](const ParticlePoint& particlePoint) {
     Bundled<kWide> amounts{};
-    amounts.at[kVolume] = guest.volume;
+    amounts.at[kVolume] = particlePoint.volume;
     for (int k = 0; k < 3; ++k)
-      amounts.at[kImpulse + k] = guest.impulse[k];
-    amounts.at[kDrag] = guest.drag;
+      amounts.at[kImpulse + k] = particlePoint.impulse[k];
+    amounts.at[kDrag] = particlePoint.drag;
     return amounts;
   };
   if (!sharing_) {
     FieldBundle<kWide> cells(mesh_.nCells(), Bundled<kWide>{});
-    for (const Guest& guest : here)
-      cells[guest.at.cell].at += amountsOf(guest).at;
+    for (const ParticlePoint& particlePoint : here)
+      cells[particlePoint.at.cell].at += amountsOf(particlePoint).at;
     return cells;
   }
   SharedFields<kWide> shared = sharing_->empty<kWide>();
@@ -104,11 +104,11 @@ void particleExchange::soften(FieldBundle<kWide>& amounts) const {
 
 void particleExchange::deposit(const link::ParticleArrays& particles, double elapsed, scalarField& solid,
                                vectorField* force, scalarField* drag) {
-  guests_.invite(particles, settings_.method, settings_.length);
+  particlePoints_.invite(particles, settings_.method, settings_.length);
   shares_.clear();
   if (sharing_)
-    for (const Guest& guest : guests_.here())
-      shares_.push_back(sharing_->sharesOf(guest.at.position, guest.at.cell));
+    for (const ParticlePoint& particlePoint : particlePoints_.here())
+      shares_.push_back(sharing_->sharesOf(particlePoint.at.position, particlePoint.at.cell));
   FieldBundle<kWide> amounts = gather();
   soften(amounts);
   if (diffusion_)
@@ -183,46 +183,47 @@ SharedFields<width> particleExchange::readable(const std::vector<const vectorFie
   return shared;
 }
 
-particleExchange::ToldFields particleExchange::toldFields(const FlowFields& flow, const fluid::FluidSamples& samples) {
-  ToldFields told;
+particleExchange::AppliedFields particleExchange::appliedFields(const FlowFields& flow,
+                                                                const link::FluidSamples& samples) {
+  AppliedFields applied;
   scalarField fluidSolid, solid;
   if (flow.share) {
     fluidSolid = 1.0 - flow.fraction->primitiveField();
     solid = solidVolume_ / mesh_.V();
   }
-  const auto tell = [&](const vectorField& given, owedForce& owed) {
-    return flow.share ? owed.tell(given, fluidSolid, solid, *flow.share) : given;
+  const auto tell = [&](const vectorField& given, pendingForce& deferred) {
+    return flow.share ? deferred.tell(given, fluidSolid, solid, *flow.share) : given;
   };
   if (samples.pressure_gradient)
-    told.pressureGradient = tell(*flow.pressureGradient, pressureOwed_);
+    applied.pressureGradient = tell(*flow.pressureGradient, pressurePending_);
   if (samples.stress_divergence)
-    told.stressDivergence = tell(*flow.stressDivergence, stressOwed_);
-  return told;
+    applied.stressDivergence = tell(*flow.stressDivergence, stressPending_);
+  return applied;
 }
 
 vectorField particleExchange::untold() const {
-  return stressOwed_.back() - pressureOwed_.back();
+  return stressPending_.back() - pressurePending_.back();
 }
 
-/// Of the fluid at a guest.
+/// Of the fluid at a particle point.
 struct PointFlow {
   vector velocity = Zero;
   scalar fraction = 1;
 };
 
-struct particleExchange::FlowAtGuests {
+struct particleExchange::FlowAtParticlePoints {
   const fvMesh& mesh;
-  const scalar leastFraction; ///< that a velocity may be divided by
+  const scalar minFraction; ///< that a velocity may be divided by
   const volScalarField* fraction;
   tmp<volVectorField> flux; ///< alpha U per area; U where the fraction is not known
   tmp<volTensorField> gradU, gradFlux;
   tmp<volVectorField> gradFraction;
   SharedFields<kNarrow> readable; ///< flux and fraction
 
-  PointFlow at(const Guest& guest, const PointShares* shares) const {
-    const label cell = guest.at.cell;
-    const point x(guest.at.position[0], guest.at.position[1], guest.at.position[2]);
-    const vector fromCentre(guest.outside ? vector(Zero) : x - mesh.cellCentres()[cell]);
+  PointFlow at(const ParticlePoint& particlePoint, const PointShares* shares) const {
+    const label cell = particlePoint.at.cell;
+    const point x(particlePoint.at.position[0], particlePoint.at.position[1], particlePoint.at.position[2]);
+    const vector fromCentre(particlePoint.outside ? vector(Zero) : x - mesh.cellCentres()[cell]);
     Bundled<kNarrow> read{};
     if (shares && !readable.cells.empty())
       vertexSharing::read(*shares, readable, read);
@@ -234,15 +235,15 @@ struct particleExchange::FlowAtGuests {
       here.velocity =
           shares ? vector(read.at[0], read.at[1], read.at[2]) : linear(flux()[cell], gradFlux()[cell], fromCentre);
       if (fraction)
-        here.velocity /= std::max(here.fraction, leastFraction);
+        here.velocity /= std::max(here.fraction, minFraction);
     }
     return here;
   }
 };
 
-particleExchange::FlowAtGuests particleExchange::flowAtGuests(const FlowFields& flow,
-                                                              const fluid::FluidSamples& samples) const {
-  FlowAtGuests at{mesh_, 1.0 - settings_.mostSolid, flow.fraction, {}, {}, {}, {}, {}};
+particleExchange::FlowAtParticlePoints particleExchange::flowAtParticlePoints(const FlowFields& flow,
+                                                                              const link::FluidSamples& samples) const {
+  FlowAtParticlePoints at{mesh_, 1.0 - settings_.maxSolid, flow.fraction, {}, {}, {}, {}, {}};
   if (samples.vorticity)
     at.gradU = fvc::grad(*flow.velocity);
   if (samples.velocity) {
@@ -261,24 +262,24 @@ particleExchange::FlowAtGuests particleExchange::flowAtGuests(const FlowFields& 
 }
 
 void particleExchange::sample(const FlowFields& flow, const link::ParticleArrays& particles,
-                              const fluid::FluidSamples& samples) {
-  const ToldFields told = toldFields(flow, samples);
+                              const link::FluidSamples& samples) {
+  const AppliedFields applied = appliedFields(flow, samples);
   if (samples.pressure_gradient && samples.stress_divergence)
-    sampleAt<kWide>(flow, told, particles, samples);
+    sampleAt<kWide>(flow, applied, particles, samples);
   else
-    sampleAt<kNarrow>(flow, told, particles, samples);
-  balanceForces(told, particles, samples);
+    sampleAt<kNarrow>(flow, applied, particles, samples);
+  balanceForces(applied, particles, samples);
 }
 
 template <int width>
-void particleExchange::sampleAt(const FlowFields& flow, const ToldFields& told, const link::ParticleArrays& particles,
-                                const fluid::FluidSamples& samples) {
-  const FlowAtGuests atGuests(flowAtGuests(flow, samples));
+void particleExchange::sampleAt(const FlowFields& flow, const AppliedFields& applied,
+                                const link::ParticleArrays& particles, const link::FluidSamples& samples) {
+  const FlowAtParticlePoints atParticlePoints(flowAtParticlePoints(flow, samples));
   std::vector<const vectorField*> forces;
   if (samples.pressure_gradient)
-    forces.push_back(&told.pressureGradient);
+    forces.push_back(&applied.pressureGradient);
   if (samples.stress_divergence)
-    forces.push_back(&told.stressDivergence);
+    forces.push_back(&applied.stressDivergence);
   SharedFields<width> shared;
   if (!forces.empty())
     shared = readable<width>(forces);
@@ -289,25 +290,25 @@ void particleExchange::sampleAt(const FlowFields& flow, const ToldFields& told, 
     for (int k = 0; k < 3; ++k)
       *at++ = v[k];
   };
-  const auto fill = [&](const Guest& guest, double* at) {
-    const PointShares* shares = sharing_ ? &shares_[&guest - guests_.here().data()] : nullptr;
-    if (guest.centre) {
-      const PointFlow here(atGuests.at(guest, shares));
+  const auto fill = [&](const ParticlePoint& particlePoint, double* at) {
+    const PointShares* shares = sharing_ ? &shares_[&particlePoint - particlePoints_.here().data()] : nullptr;
+    if (particlePoint.centre) {
+      const PointFlow here(atParticlePoints.at(particlePoint, shares));
       if (samples.velocity)
         put(at, here.velocity);
       if (samples.fraction)
         *at++ = std::clamp(here.fraction, settings_.fractionFloor, 1.0);
       if (samples.vorticity)
-        put(at, 2.0 * (*skew(atGuests.gradU()[guest.at.cell])));
+        put(at, 2.0 * (*skew(atParticlePoints.gradU()[particlePoint.at.cell])));
     }
     if (perPoint > 0) {
       Bundled<width> values;
       if (shares)
         vertexSharing::read(*shares, shared, values);
       else
-        values = shared.cells[guest.at.cell];
+        values = shared.cells[particlePoint.at.cell];
       for (int k = 0; k < perPoint; ++k)
-        *at++ = guest.weight * values.at[k];
+        *at++ = particlePoint.weight * values.at[k];
     }
   };
   for (std::size_t i = 0; i < particles.count; ++i)
@@ -335,14 +336,14 @@ void particleExchange::sampleAt(const FlowFields& flow, const ToldFields& told, 
       for (int k = 0; k < 3; ++k)
         samples.stress_divergence[row][k] += *point++;
   };
-  guests_.answer(perCentre, perPoint, fill, add, particles.ticket);
+  particlePoints_.answer(perCentre, perPoint, fill, add, particles.cell_hint);
 }
 
-void particleExchange::balanceForces(const ToldFields& told, const link::ParticleArrays& particles,
-                                     const fluid::FluidSamples& samples) {
+void particleExchange::balanceForces(const AppliedFields& applied, const link::ParticleArrays& particles,
+                                     const link::FluidSamples& samples) {
   vector onMesh(Zero), onParticles(Zero), pending(Zero);
   double scale = 0;
-  const auto add = [&](const vectorField& field, const double(*values)[3], const owedForce& owed, double sign) {
+  const auto add = [&](const vectorField& field, const double(*values)[3], const pendingForce& deferred, double sign) {
     onMesh += sum(vectorField(solidVolume_ * field));
     for (std::size_t i = 0; i < particles.count; ++i) {
       const vector force(particles.volume[i] * vector(values[i][0], values[i][1], values[i][2]));
@@ -351,12 +352,12 @@ void particleExchange::balanceForces(const ToldFields& told, const link::Particl
       pending += sign * force;
     }
     for (int k = 0; k < 3; ++k)
-      pending[k] += sign * sum(scalarField(owed.rest(k) * mesh_.V()));
+      pending[k] += sign * sum(scalarField(deferred.rest(k) * mesh_.V()));
   };
   if (samples.pressure_gradient)
-    add(told.pressureGradient, samples.pressure_gradient, pressureOwed_, -1);
+    add(applied.pressureGradient, samples.pressure_gradient, pressurePending_, -1);
   if (samples.stress_divergence)
-    add(told.stressDivergence, samples.stress_divergence, stressOwed_, 1);
+    add(applied.stressDivergence, samples.stress_divergence, stressPending_, 1);
   std::array<double, 10> sums{scale,           onMesh.x(),      onMesh.y(),  onMesh.z(),  onParticles.x(),
                               onParticles.y(), onParticles.z(), pending.x(), pending.y(), pending.z()};
   sumOverRanks(sums);

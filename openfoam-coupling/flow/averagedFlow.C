@@ -46,10 +46,10 @@ const char* const secondOrderTime = "backward";
 const scalar solidVolumeTolerance = 1e-8;
 
 // Guards the division only: see correctPressure.
-const scalar leastRowSum = 1e-12;
+const scalar minRowSum = 1e-12;
 
 // Part of what is held back that returns in one step, at least.
-const scalar leastReturned = 0.02;
+const scalar minReturned = 0.02;
 
 // No incompressible flow is faster [m/s]: sound in water travels at 1500 m/s.
 const scalar fastestFlow = 1e4;
@@ -343,7 +343,7 @@ void averagedFlow::correctPressure(fvVectorMatrix& UEqn) {
   if (pimple_.consistent()) {
     // The stock solvers never let the row sum A - H1 fall below A/10. Where viscosity makes A large (an unyielded plug)
     // that understates the response to the pressure, and the scheme diverges at any time step above some 10 dx^2/nu.
-    rAtU = 1.0 / max(1.0 / rAU - UEqn.H1(), leastRowSum / rAU);
+    rAtU = 1.0 / max(1.0 / rAU - UEqn.H1(), minRowSum / rAU);
     tmp<surfaceScalarField> shift = fvc::interpolate(rAtU() - rAU) * fvc::snGrad(p_) * mesh_.magSf();
     if (c) {
       HbyA -= (rAU - rAtU()) * c->alpha * fvc::grad(p_);
@@ -397,7 +397,7 @@ void averagedFlow::chooseReturned() {
   c.withheld.primitiveFieldRef() *= mesh_.time().deltaT0Value() / dt;
   forAll(c.withheld, celli) {
     const scalar tied = c.exchange[celli] * dt / c.alpha[celli];
-    c.returned[celli] = max(leastReturned, 1 / max(scalar(1), sqr(tied))) * c.withheld[celli];
+    c.returned[celli] = max(minReturned, 1 / max(scalar(1), sqr(tied))) * c.withheld[celli];
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The loops that dense beds close from meeting to meeting, kept below one.
+// The loops that dense beds close from coupling step to coupling step, kept below one.
 #include "flow/feedbackShares.H"
 
 #include "PstreamReduceOps.H"

@@ -13,7 +13,7 @@ namespace {
 const scalar largestGrowth = 1.2;
 // Two backward differences stay stable while a step is less than 2.4 times the one before it.
 const scalar largestLeap = 2;
-const scalar mostParts = 10000;
+const scalar maxParts = 10000;
 // An interval that holds a whole number of steps is not split once more for its last digit.
 const scalar roundOff = 1e-9;
 } // namespace
@@ -49,7 +49,7 @@ scalar timeStepControl::partOf(scalar left, scalar courant) {
     const scalar wanted = courant > VSMALL ? present * maxCo_ / courant : GREAT;
     parts = max(scalar(1), std::ceil(left / min(wanted, min(largestLeap * present, maxDeltaT_)) * (1 - roundOff)));
   }
-  if (parts > mostParts) {
+  if (parts > maxParts) {
     throw inputError(
         runTime_.controlDict(), "maxCo", maxCo_,
         "this takes more than 10000 steps to the next meeting with the particles: raise maxCo or maxDeltaT");

@@ -4,7 +4,7 @@
 // computes, samples and sends; nothing else exists.
 #pragma once
 
-namespace eccentra::fluid {
+namespace eccentra::link {
 
 /// Bits of a set of fluid quantities at a particle's centre. World frame, SI.
 enum Quantity : unsigned {
@@ -32,4 +32,4 @@ struct FluidReaction {
   double elapsed = 0.0;               ///< integrated time [s]
 };
 
-} // namespace eccentra::fluid
+} // namespace eccentra::link

@@ -13,9 +13,9 @@
 
 namespace eccentra::link {
 
-/// What the fluid side stores with a particle from one meeting to the next (where it was found); it travels with the
-/// particle between the ranks of DEM and means nothing to DEM. Negative: not met yet.
-struct Ticket {
+/// What the fluid side stores with a particle from one coupling step to the next (where it was found); it travels with
+/// the particle between the ranks of DEM and means nothing to DEM. Negative: not met yet.
+struct CellHint {
   std::int32_t rank = -1;
   std::int32_t cell = -1;
 };
@@ -28,12 +28,12 @@ struct ParticleArrays {
   std::size_t count = 0;
   const double (*position)[3] = nullptr;
   const double* volume = nullptr;           ///< of the solid [m3]
-  const double (*impulse)[3] = nullptr;     ///< that the fluid gave since the last meeting: drag and lifts [N s]
-  const double* drag_coefficient = nullptr; ///< integral of beta dt since the last meeting [kg]
+  const double (*impulse)[3] = nullptr;     ///< that the fluid gave since the last coupling step: drag and lifts [N s]
+  const double* drag_coefficient = nullptr; ///< integral of beta dt since the last coupling step [kg]
   /// Null where all particles are spheres. Else vectors e_1 e_2 e_3: six points at +-e_k, each with a sixth of the
   /// volume, have the second moments of the body: e_k = sqrt(3 M_kk / V) along principal axis k.
   const double (*extent)[kExtentDoubles] = nullptr;
-  Ticket* ticket = nullptr;
+  CellHint* cell_hint = nullptr;
 };
 
 /// Sums over all particles of all ranks, for the balances. World frame, SI.
@@ -44,26 +44,26 @@ struct DemTotals {
   double volume = 0;                     ///< [m3]
   double mass = 0;                       ///< [kg]
   double impulse[3] = {0, 0, 0};         ///< sum of ParticleArrays::impulse [N s]
-  double momentum[3] = {0, 0, 0};        ///< sum m v [kg m/s], with the half kick that the integrator still owes
+  double momentum[3] = {0, 0, 0};        ///< sum m v [kg m/s], with the half half step that the integrator still owes
   double volume_position[3] = {0, 0, 0}; ///< sum V x [m4]
   double volume_velocity[3] = {0, 0, 0}; ///< sum V v [m4/s]
   double fastest = 0;                    ///< largest |v| [m/s]
 };
 
-/// How evenly the ranks of DEM were loaded since the last meeting.
+/// How evenly the ranks of DEM were loaded since the last coupling step.
 struct DemLoad {
   std::int64_t ranks = 1;
-  std::int64_t most_particles = 0; ///< of any rank
-  double mean_seconds = 0;         ///< that a rank computed, without waiting for others; mean over the ranks [s]
-  double most_seconds = 0;         ///< of any rank [s]
+  std::int64_t max_particles = 0; ///< of any rank
+  double mean_seconds = 0;        ///< that a rank computed, without waiting for others; mean over the ranks [s]
+  double max_seconds = 0;         ///< of any rank [s]
 };
 
-/// One meeting.
-struct Meeting {
-  unsigned needed = 0;          ///< fluid::Quantity bits asked for now: a screen drops some, and asks again
-  double elapsed = 0;           ///< DEM time since the last meeting [s]; 0 at the first: nothing advances
-  double dem_seconds = 0;       ///< wall-clock time that this rank's DEM took since the last meeting [s]
-  double pack_seconds = 0;      ///< and of packing and unpacking at the last meeting [s]
+/// One coupling step.
+struct CouplingStep {
+  unsigned needed = 0;          ///< link::Quantity bits asked for now: a screen drops some, and asks again
+  double elapsed = 0;           ///< DEM time since the last coupling step [s]; 0 at the first: nothing advances
+  double dem_seconds = 0;       ///< wall-clock time that this rank's DEM took since the last coupling step [s]
+  double pack_seconds = 0;      ///< and of packing and unpacking at the last coupling step [s]
   std::int64_t steps_done = 0;  ///< DEM steps of the present run
   std::int64_t steps_total = 0; ///< its length
   std::int64_t number = 0;      ///< counted by the socket link, from 1: what belongs together
@@ -77,15 +77,16 @@ class FluidPeer {
   virtual ~FluidPeer() = default;
   /// States the DEM side's terms and returns the fluid side's; throws Refusal if they disagree.
   virtual FluidTerms agree(const DemTerms& dem) = 0;
-  /// Hands over the particles, advances the flow by `meeting.elapsed`, and fills the arrays of `samples` (rows as in
-  /// `particles`); those that `meeting.needed` does not name are null. Returns the signal that asks the fluid side to
-  /// stop, or 0.
-  virtual int meet(const Meeting& meeting, const ParticleArrays& particles, const fluid::FluidSamples& samples) = 0;
-  /// With DemTerms::overlap, after a meeting: DEM begins an interval, and so does the flow, with the particles and
-  /// impulses of that meeting; meet() then only exchanges. Returns at once where the fluid is another job.
+  /// Hands over the particles, advances the flow by `coupling step.elapsed`, and fills the arrays of `samples` (rows as
+  /// in `particles`); those that `coupling step.needed` does not name are null. Returns the signal that asks the fluid
+  /// side to stop, or 0.
+  virtual int meet(const CouplingStep& coupling_step, const ParticleArrays& particles,
+                   const link::FluidSamples& samples) = 0;
+  /// With DemTerms::overlap, after a coupling step: DEM begins an interval, and so does the flow, with the particles
+  /// and impulses of that coupling step; meet() then only exchanges. Returns at once where the fluid is another job.
   virtual void advance() = 0;
-  /// Writes the fluid's state of the last meeting such that it is on the disk on return, and returns where (for the
-  /// user's eyes). The DEM side writes its own after that: a checkpoint of DEM's has one of the fluid's.
+  /// Writes the fluid's state of the last coupling step such that it is on the disk on return, and returns where (for
+  /// the user's eyes). The DEM side writes its own after that: a checkpoint of DEM's has one of the fluid's.
   virtual std::string checkpoint(const CheckpointMark& mark) = 0;
   /// The present run of DEM has ended as intended.
   virtual void run_ended() = 0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How evenly the ranks of DEM were loaded over the meetings of a run.
+// How evenly the ranks of DEM were loaded over the coupling steps of a run.
 #pragma once
 
 #include "link/fluid_peer.h"
@@ -11,16 +11,16 @@ namespace eccentra::link {
 
 class LoadSums {
  public:
-  void add(const Meeting& meeting);
+  void add(const CouplingStep& coupling_step);
   /// One line with a line end: ranks; fullest and busiest rank over the mean. Empty before the first interval.
   std::string table() const;
 
  private:
   int intervals_ = 0;
   std::int64_t ranks_ = 1;
-  double particles_ = 0, most_particles_ = 0; ///< sums over the intervals of the mean and of the most of any rank
-  double seconds_ = 0, most_seconds_ = 0;     ///< as above, of the time that a rank computed [s]
-  double wall_ = 0;                           ///< [s]
+  double particles_ = 0, max_particles_ = 0; ///< sums over the intervals of the mean and of the most of any rank
+  double seconds_ = 0, max_seconds_ = 0;     ///< as above, of the time that a rank computed [s]
+  double wall_ = 0;                          ///< [s]
 };
 
 } // namespace eccentra::link

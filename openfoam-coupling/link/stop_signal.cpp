@@ -14,14 +14,14 @@ namespace eccentra::link {
 namespace {
 
 volatile std::sig_atomic_t g_received = 0;
-unsigned g_patience = 0;
+unsigned g_timeout = 0;
 char g_late[512];
 
 void remember(int number) {
   if (g_received != 0)
     return;
   g_received = number;
-  alarm(g_patience);
+  alarm(g_timeout);
 }
 
 void too_late(int) {
@@ -32,7 +32,7 @@ void too_late(int) {
 } // namespace
 
 void catch_stop_signals(const char* program, unsigned patience) {
-  g_patience = patience;
+  g_timeout = patience;
   std::strncpy(g_late, program, sizeof g_late / 4);
   std::strncat(g_late,
                ": error: a signal asked this run to stop but no meeting of particles and fluid came in time to write a "

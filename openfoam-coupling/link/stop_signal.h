@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ctrl-C, SIGTERM and a batch system's warning end a coupled run in order: at the next meeting, with a checkpoint.
+// Ctrl-C, SIGTERM and a batch system's warning end a coupled run in order: at the next coupling step, with a
+// checkpoint.
 #pragma once
 
 namespace eccentra::link {

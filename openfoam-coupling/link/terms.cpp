@@ -58,9 +58,9 @@ double size(const double (&v)[3]) {
 }
 
 std::string rheology_disagreement(const FlowCurve& dem, const FlowCurve& fluid) {
-  const bool told = dem.consistency > 0 && fluid.consistency > 0;
-  if (!told || (same(dem.yield_stress, fluid.yield_stress) && same(dem.consistency, fluid.consistency) &&
-                same(dem.index, fluid.index)))
+  const bool applied = dem.consistency > 0 && fluid.consistency > 0;
+  if (!applied || (same(dem.yield_stress, fluid.yield_stress) && same(dem.consistency, fluid.consistency) &&
+                   same(dem.index, fluid.index)))
     return "";
   return sentence("the fluid's rheology is tau0 %g Pa, k %g Pa s^n, n %g in fix fluid/force but tau0 %g, k %g, n %g in "
                   "constant/transportProperties: make both the same",

@@ -37,31 +37,32 @@ struct DemTerms {
   std::uint32_t protocol = kProtocolVersion;
   double length_unit = 1.0;      ///< metres in one unit of length of the script (`units si`: 1)
   double time_step = 0.0;        ///< of DEM [s]
-  std::int64_t interval = 0;     ///< DEM steps from one meeting to the next
+  std::int64_t interval = 0;     ///< DEM steps from one coupling step to the next
   std::int64_t particles = 0;    ///< in the whole domain, now
   Extents domain;                ///< of the simulation box
-  unsigned needed = 0;           ///< fluid::Quantity bits that the closures ask for at the beginning of the run
+  unsigned needed = 0;           ///< link::Quantity bits that the closures ask for at the beginning of the run
   bool overlap = false;          ///< the fluid takes its step while DEM runs the same interval
   bool extents = false;          ///< particles come with their extent (clusters), not with their volume alone
   double fluid_density = 0.0;    ///< that the closures were told [kg/m3]; 0: none was
   FlowCurve rheology;            ///< that the closures were told
   double gravity[3] = {0, 0, 0}; ///< that acts on the particles [m/s2]
   CheckpointMark resumes;        ///< the checkpoint that this run goes on from, if any
-  std::uint32_t lanes = 0;       ///< asked for by the socket link: one for each rank but the first (link/lanes.h)
+  std::uint32_t rank_connections =
+      0; ///< asked for by the socket link: one for each rank but the first (link/rank connections.h)
 };
 
 /// The fluid side's statement.
 struct FluidTerms {
   std::uint32_t protocol = kProtocolVersion;
   double length_unit = 1.0;   ///< metres in one unit of length of the mesh
-  double time_step = 0.0;     ///< of one meeting: what the flow advances by [s]
+  double time_step = 0.0;     ///< of one coupling step: what the flow advances by [s]
   Extents domain;             ///< bounding box of the mesh
-  unsigned offered = 0;       ///< fluid::Quantity bits that it can compute
+  unsigned offered = 0;       ///< link::Quantity bits that it can compute
   double fluid_density = 0.0; ///< [kg/m3]
   FlowCurve rheology;         ///< without the regularisation, which is the solver's own
   bool has_gravity = false;   ///< constant/g exists; the flow itself needs none
   double gravity[3] = {0, 0, 0};
-  std::uint64_t layout = 0; ///< names the mesh and its division among ranks: tickets hold for one layout
+  std::uint64_t layout = 0; ///< names the mesh and its division among ranks: cell hint hold for one layout
 };
 
 /// One of the two sides, or what lies between them, cannot go on; what() is the one sentence for the user.

@@ -110,8 +110,8 @@ Table read_csv(const fs::path& file) {
     throw std::runtime_error(file.string() + ": the first line must hold the names of the columns");
   for (std::size_t number = 2; std::getline(lines, line); ++number) {
     std::vector<double> values;
-    std::istringstream words(line);
-    for (std::string word; std::getline(words, word, ',');) {
+    std::istringstream arguments(line);
+    for (std::string word; std::getline(arguments, word, ',');) {
       char* end = nullptr;
       values.push_back(std::strtod(word.c_str(), &end));
       if (word.empty() || *end != '\0')

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Hosts LIGGGHTS; kept apart from OpenFOAM's headers and macros.
-#include "coupled/demHost.h"
+#include "coupled/embeddedDem.h"
 
 #include "styles/entry/style_registry.h"
 
@@ -56,7 +56,7 @@ void run_dem_script(const std::string& script, const std::string& log, const std
     arguments.push_back(word.data());
   {
     LAMMPS_NS::LAMMPS liggghts(static_cast<int>(arguments.size()), arguments.data(), MPI_COMM_WORLD);
-    host::enter(&liggghts);
+    styles::enter(&liggghts);
     liggghts.input->file(script.c_str());
   }
   running_log().clear();

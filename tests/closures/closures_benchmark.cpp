@@ -14,7 +14,8 @@
 #include <cstring>
 #include <sstream>
 
-using namespace eccentra::fluid;
+using namespace eccentra::closures;
+using namespace eccentra::link;
 using eccentra::test::ParticleArrays;
 
 namespace {
@@ -23,17 +24,17 @@ constexpr int kParticles = 4096; // fits the second-level cache, as a rank's sha
 const std::string kMud = "rheology herschel_bulkley 1 0.28 0.65 density 1000 buoyancy off ";
 const std::string kOil = "rheology newtonian 0.1 density 1000 buoyancy off ";
 
-EffectList effects_of(const std::string& words) {
-  std::istringstream stream(words);
+EffectList effects_of(const std::string& arguments) {
+  std::istringstream stream(arguments);
   std::vector<std::string> list;
   for (std::string word; stream >> word;)
     list.push_back(word);
   return make_effects(read_fluid_options(list, 1));
 }
 
-void run_effects(benchmark::State& state, const std::string& words) {
+void run_effects(benchmark::State& state, const std::string& arguments) {
   ParticleArrays particles(kParticles);
-  EffectList effects = effects_of(words);
+  EffectList effects = effects_of(arguments);
   for (const auto& effect : effects)
     effect->prepare(particles);
   for (auto _ : state) {
@@ -66,19 +67,19 @@ int main(int argc, char** argv) {
   benchmark::RegisterBenchmark("hand_written_drag/herschel_bulkley", run_hand_written);
   for (const char* law : laws)
     for (const auto& [fluid, rheology] : {std::pair{"herschel_bulkley", kMud}, std::pair{"newtonian", kOil}}) {
-      const std::string words = rheology + "drag " + law;
+      const std::string arguments = rheology + "drag " + law;
       benchmark::RegisterBenchmark((std::string("drag_") + law + "/" + fluid).c_str(),
-                                   [words](benchmark::State& s) { run_effects(s, words); });
+                                   [arguments](benchmark::State& s) { run_effects(s, arguments); });
     }
   const std::pair<const char*, const char*> single[] = {
       {"shear_lift", "shear_lift saffman_mei"}, {"rotational_lift", "rotational_lift oesterle_bui_dinh"},
       {"drag_torque", "drag_torque dennis"},    {"pressure_gradient", "pressure_gradient on"},
       {"viscous_stress", "viscous_stress on"},  {"buoyancy", "buoyancy on"}};
   std::string all = "drag chien ";
-  for (const auto& [name, words] : single) {
-    all += std::string(words) + " ";
+  for (const auto& [name, arguments] : single) {
+    all += std::string(arguments) + " ";
     for (const auto& [fluid, rheology] : {std::pair{"herschel_bulkley", kMud}, std::pair{"newtonian", kOil}}) {
-      const std::string line = rheology + words;
+      const std::string line = rheology + arguments;
       benchmark::RegisterBenchmark((std::string(name) + "/" + fluid).c_str(),
                                    [line](benchmark::State& s) { run_effects(s, line); });
     }

@@ -12,7 +12,9 @@
 #include <array>
 #include <cmath>
 
-using namespace eccentra::fluid;
+using namespace eccentra::closures;
+using namespace eccentra::link;
+using namespace eccentra::base;
 using Eigen::Vector3d;
 
 namespace {

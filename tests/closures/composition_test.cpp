@@ -11,13 +11,14 @@
 
 #include <sstream>
 
-using namespace eccentra::fluid;
+using namespace eccentra::closures;
+using namespace eccentra::link;
 using eccentra::test::ParticleArrays;
 
 namespace {
 
-EffectList effects_of(const std::string& words) {
-  std::istringstream stream("rheology herschel_bulkley 1 0.28 0.65 density 1000 " + words);
+EffectList effects_of(const std::string& arguments) {
+  std::istringstream stream("rheology herschel_bulkley 1 0.28 0.65 density 1000 " + arguments);
   std::vector<std::string> list;
   for (std::string word; stream >> word;)
     list.push_back(word);
@@ -51,7 +52,7 @@ TEST(Composition, AsksTheFluidForWhatItReadsAndNoMore) {
 /// As the sources give them; what a run warns by.
 TEST(Composition, StatesTheRangesOfTheSources) {
   struct Range {
-    const char* words;
+    const char* arguments;
     Number number;
     double low, high;
   };
@@ -67,11 +68,11 @@ TEST(Composition, StatesTheRangesOfTheSources) {
                           {"drag_torque dennis", kSpinReynolds, 0, 1000}};
   for (const Range& range : ranges) {
     bool stated = false;
-    for (const auto& effect : effects_of(std::string("buoyancy off ") + range.words))
+    for (const auto& effect : effects_of(std::string("buoyancy off ") + range.arguments))
       for (const Validity& validity : effect->validity())
         stated =
             stated || (validity.number == range.number && validity.low == range.low && validity.high == range.high);
-    EXPECT_TRUE(stated) << range.words << ": " << kNumberNames[range.number];
+    EXPECT_TRUE(stated) << range.arguments << ": " << kNumberNames[range.number];
   }
 }
 

@@ -7,9 +7,9 @@
 
 namespace eccentra::test {
 
-double hand_written_drag(const fluid::Kick& kick, const fluid::Rheology& fluid) {
+double hand_written_drag(const closures::HalfStep& kick, const closures::Rheology& fluid) {
   const double plateau = 67.289 * std::exp(-5.03);
-  const double yield = 7.0 * fluid::kPi / 24.0 * fluid.yield_stress;
+  const double yield = 7.0 * closures::kPi / 24.0 * fluid.yield_stress;
   double sum[3] = {0.0, 0.0, 0.0};
   for (int i = 0; i < kick.count; ++i) {
     if (!(kick.mask[i] & kick.group))
@@ -29,7 +29,7 @@ double hand_written_drag(const fluid::Kick& kick, const fluid::Rheology& fluid) 
     double fraction = kick.samples.fraction[i];
     fraction = fraction < 0.3 ? 0.3 : fraction > 1.0 ? 1.0 : fraction;
     const double inverse_d = 1.0 / d;
-    const double area = fluid::kPi / 8.0 * d * d * (fraction < 1.0 ? std::pow(fraction, -1.65) : 1.0);
+    const double area = closures::kPi / 8.0 * d * d * (fraction < 1.0 ? std::pow(fraction, -1.65) : 1.0);
     double q = 0.0, drag = h > 0.0 ? free / h : 0.0;
     if (h == 0.0 || h * area * 30.0 * yield < free) {
       q = std::sqrt(sx * sx + sy * sy + sz * sz);

@@ -13,7 +13,7 @@
 namespace eccentra::test {
 
 /// Spheres of the reference case near their terminal velocity in a sheared suspension, positions irrelevant.
-class ParticleArrays : public fluid::ShapeCatalogue {
+class ParticleArrays : public closures::ShapeCatalogue {
  public:
   explicit ParticleArrays(int count, unsigned seed = 1)
       : velocity_(3 * count), force_(3 * count), spin_(3 * count), torque_(3 * count), flow_(3 * count),
@@ -41,26 +41,27 @@ class ParticleArrays : public fluid::ShapeCatalogue {
       rows_[3 * count + i] = &torque_[3 * i];
     }
     using Rows3 = double(*)[3];
-    kick_.count = count;
-    kick_.interval = 2e-5;
-    kick_.velocity = &rows_[0];
-    kick_.force = &rows_[count];
-    kick_.spin = &rows_[2 * count];
-    kick_.torque = &rows_[3 * count];
-    kick_.mass = mass_.data();
-    kick_.radius = radius_.data();
-    kick_.kind = kind_.data();
-    kick_.mask = mask_.data();
-    kick_.group = kick_.integrated = 1;
-    kick_.gravity[2] = -9.81;
-    kick_.samples = {reinterpret_cast<Rows3>(flow_.data()), fraction_.data(), reinterpret_cast<Rows3>(pressure_.data()),
-                     reinterpret_cast<Rows3>(stress_.data()), reinterpret_cast<Rows3>(vorticity_.data())};
-    kick_.impulse = reinterpret_cast<Rows3>(impulse_.data());
-    kick_.drag_coefficient = coefficient_.data();
-    kick_.last = reinterpret_cast<double(*)[4]>(last_.data());
+    half_step_.count = count;
+    half_step_.interval = 2e-5;
+    half_step_.velocity = &rows_[0];
+    half_step_.force = &rows_[count];
+    half_step_.spin = &rows_[2 * count];
+    half_step_.torque = &rows_[3 * count];
+    half_step_.mass = mass_.data();
+    half_step_.radius = radius_.data();
+    half_step_.kind = kind_.data();
+    half_step_.mask = mask_.data();
+    half_step_.group = half_step_.integrated = 1;
+    half_step_.gravity[2] = -9.81;
+    half_step_.samples = {reinterpret_cast<Rows3>(flow_.data()), fraction_.data(),
+                          reinterpret_cast<Rows3>(pressure_.data()), reinterpret_cast<Rows3>(stress_.data()),
+                          reinterpret_cast<Rows3>(vorticity_.data())};
+    half_step_.impulse = reinterpret_cast<Rows3>(impulse_.data());
+    half_step_.drag_coefficient = coefficient_.data();
+    half_step_.last = reinterpret_cast<double(*)[4]>(last_.data());
   }
 
-  const fluid::Kick& kick() const { return kick_; }
+  const closures::HalfStep& kick() const { return half_step_; }
   const std::vector<double>& forces() const { return force_; }
   void clear_forces() {
     std::fill(force_.begin(), force_.end(), 0.0);
@@ -69,18 +70,18 @@ class ParticleArrays : public fluid::ShapeCatalogue {
   }
 
   int kinds() const override { return 2; }
-  fluid::ShapeFactors factors(int) const override { return {}; }
+  closures::ShapeFactors factors(int) const override { return {}; }
   double inertia_factor(int) const override { return 0.4; }
   double crosswise_sphericity(int, const double*) const override { return 1.0; }
 
  private:
   static constexpr double kRadius = 3.175e-3;
-  static constexpr double kMass = 2619.0 * 4.0 / 3.0 * fluid::kPi * kRadius * kRadius * kRadius;
+  static constexpr double kMass = 2619.0 * 4.0 / 3.0 * closures::kPi * kRadius * kRadius * kRadius;
   std::vector<double> velocity_, force_, spin_, torque_, flow_, pressure_, stress_, vorticity_, impulse_, last_;
   std::vector<double> mass_, radius_, fraction_, coefficient_;
   std::vector<int> kind_, mask_;
   std::vector<double*> rows_;
-  fluid::Kick kick_;
+  closures::HalfStep half_step_;
 };
 
 } // namespace eccentra::test

@@ -67,7 +67,8 @@ TEST(CoupledBox, ExplicitDragKeepsTheMomentumOfAClosedBox) {
   expect_constant_momentum(run(closed_box("explicit"), "momentum_explicit"));
 }
 
-// The steps of the fluid become parts of the interval between two meetings, more and fewer of them as the flow changes.
+// The steps of the fluid become parts of the interval between two coupling steps, more and fewer of them as the flow
+// changes.
 TEST(CoupledBox, StepsBoundedByTheCourantNumberKeepTheMomentumAndTheMotion) {
   BoxCase box = closed_box("semiImplicit");
   const Outcome whole = run(box, "whole_steps");

@@ -10,10 +10,10 @@
 
 namespace eccentra::test {
 
-constexpr int kStepsPerMeeting = 40;
+constexpr int kStepsPerCouplingStep = 40;
 
-/// Bodies that are thrown together over a floor, in a fluid that they stir. `link`: words after `link`, with whatever
-/// follows; ends at DEM step `steps`. The state then is in the file end.bodies, 17 digits, by tag.
+/// Bodies that are thrown together over a floor, in a fluid that they stir. `link`: arguments after `link`, with
+/// whatever follows; ends at DEM step `steps`. The state then is in the file end.bodies, 17 digits, by tag.
 inline BoxCase stirred_box(const std::string& link, int steps, bool clusters, bool screen = false) {
   BoxCase box;
   box.size[0] = box.size[1] = 0.036;

@@ -19,11 +19,11 @@ namespace {
 using namespace eccentra::test;
 namespace fs = std::filesystem;
 
-constexpr int kMeetings = 24;
-constexpr int kSteps = kMeetings * kStepsPerMeeting;
-/// Checkpoints after 8, 16 and 24 meetings; the last two are kept.
+constexpr int kCouplingSteps = 24;
+constexpr int kSteps = kCouplingSteps * kStepsPerCouplingStep;
+/// Checkpoints after 8, 16 and 24 coupling steps; the last two are kept.
 const char* const kWords = "solver every 40 checkpoint 8";
-constexpr int kMiddle = 16 * kStepsPerMeeting;
+constexpr int kMiddle = 16 * kStepsPerCouplingStep;
 
 /// Rows of the table without the columns that tell wall-clock times.
 std::string physics_of(const fs::path& folder) {
@@ -43,16 +43,16 @@ std::string physics_of(const fs::path& folder) {
 }
 
 ProgramResult again(const fs::path& folder, int ranks = 1) {
-  std::vector<std::string> words;
+  std::vector<std::string> arguments;
   if (ranks > 1)
-    words = {"mpirun", "--oversubscribe", "--bind-to", "none", "-np", std::to_string(ranks)};
-  words.push_back(required_environment("ECCENTRA_BIN") + "/annulusFoam");
+    arguments = {"mpirun", "--oversubscribe", "--bind-to", "none", "-np", std::to_string(ranks)};
+  arguments.push_back(required_environment("ECCENTRA_BIN") + "/annulusFoam");
   if (ranks > 1)
-    words.emplace_back("-parallel");
-  words.emplace_back("-resume");
+    arguments.emplace_back("-parallel");
+  arguments.emplace_back("-resume");
   ProgramOptions options;
   options.directory = folder;
-  return run_program(words, options);
+  return run_program(arguments, options);
 }
 
 struct Result {

@@ -65,15 +65,15 @@ std::vector<std::map<std::string, double>> read_csv(const fs::path& file) {
   std::string line, word;
   std::vector<std::string> names;
   if (std::getline(in, line)) {
-    std::istringstream words(line);
-    while (std::getline(words, word, ','))
+    std::istringstream arguments(line);
+    while (std::getline(arguments, word, ','))
       names.push_back(word);
   }
   while (std::getline(in, line)) {
-    std::istringstream words(line);
+    std::istringstream arguments(line);
     std::map<std::string, double> row;
     for (const std::string& name : names) {
-      std::getline(words, word, ',');
+      std::getline(arguments, word, ',');
       row[name] = std::stod(word);
     }
     rows.push_back(row);
@@ -121,7 +121,7 @@ void write_case(const BoxCase& box, const fs::path& folder) {
 
 } // namespace
 
-std::string script_head(const BoxCase& box, double time_step, const std::string& wall_words) {
+std::string script_head(const BoxCase& box, double time_step, const std::string& wall_arguments) {
   std::ostringstream text;
   text << "atom_style granular\natom_modify map array\nboundary";
   for (const bool periodic : box.periodic)
@@ -136,7 +136,7 @@ std::string script_head(const BoxCase& box, double time_step, const std::string&
           "fix m4 all property/global coefficientFriction peratomtypepair 1 0.5\n"
           "pair_style gran model hertz tangential history\npair_coeff * *\ntimestep "
        << time_step << '\n'
-       << wall_words << "fix move all nve/sphere\n";
+       << wall_arguments << "fix move all nve/sphere\n";
   return text.str();
 }
 

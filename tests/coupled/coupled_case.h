@@ -37,7 +37,7 @@ struct Outcome {
 };
 
 /// The beginning of every script of these tests: the box, the material, spheres of diameter 6.35 mm.
-std::string script_head(const BoxCase& box, double time_step, const std::string& wall_words = "");
+std::string script_head(const BoxCase& box, double time_step, const std::string& wall_arguments = "");
 
 /// Runs the case in folder `name` below the present one. Throws std::runtime_error if the mesh cannot be made.
 Outcome run(const BoxCase& box, const std::string& name, int ranks = 1);

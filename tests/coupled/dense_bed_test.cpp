@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A dense bed on a held layer that is pushed once comes to rest, in water as in thick mud: what particles and fluid do
-// to each other from meeting to meeting must not grow.
+// to each other from coupling step to coupling step must not grow.
 #include "coupled/coupled_case.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ constexpr double kPush = 0.01; ///< [m/s]
 constexpr int kLayers = 8, kWide = 4;
 
 /// Square layers, each in the pits of the one below (solid fraction 0.74); the lowest one is held.
-Outcome pushed_bed(double viscosity, double step, int meetings, const std::string& name) {
+Outcome pushed_bed(double viscosity, double step, int coupling_steps, const std::string& name) {
   constexpr double kDemStep = 5e-5;
   BoxCase box;
   box.size[0] = box.size[1] = kWide * kDiameter;
@@ -44,15 +44,15 @@ Outcome pushed_bed(double viscosity, double step, int meetings, const std::strin
          << "fix hold held freeze\ngroup free subtract all held\nvelocity free set NULL NULL " << kPush << '\n'
          << "fix mud all fluid/force rheology herschel_bulkley 0 " << viscosity
          << " 1 density 1000 drag chien pressure_gradient on\nfix flow all fluid/couple link solver every " << every
-         << "\nrun " << every * meetings << '\n';
+         << "\nrun " << every * coupling_steps << '\n';
   box.script = script.str();
   return run(box, name);
 }
 
-void expect_rest(double viscosity, double step, int meetings, double speed) {
+void expect_rest(double viscosity, double step, int coupling_steps, double speed) {
   std::ostringstream name;
   name << "dense_bed_" << viscosity << '_' << step;
-  const Outcome outcome = pushed_bed(viscosity, step, meetings, name.str());
+  const Outcome outcome = pushed_bed(viscosity, step, coupling_steps, name.str());
   ASSERT_EQ(outcome.status, 0) << outcome.text;
   EXPECT_LT(outcome.last("fastest_particle"), speed) << name.str();
   EXPECT_LT(outcome.last("fastest_fluid"), kPush) << name.str();
@@ -61,13 +61,13 @@ void expect_rest(double viscosity, double step, int meetings, double speed) {
 
 } // namespace
 
-// Added mass: what accelerates the particles accelerates the fluid between them, one meeting late.
+// Added mass: what accelerates the particles accelerates the fluid between them, one coupling step late.
 TEST(DenseBed, ComesToRestInWater) {
   expect_rest(1e-3, 2e-3, 100, 1e-6);
   expect_rest(1e-3, 1e-2, 30, 1e-4);
 }
 
-// Drag ties fluid and particles to each other within a meeting, on the springs of the contacts.
+// Drag ties fluid and particles to each other within a coupling step, on the springs of the contacts.
 TEST(DenseBed, ComesToRestInThickFluids) {
   expect_rest(0.1, 2e-3, 100, 1e-5);
   expect_rest(1, 2e-3, 200, 1e-5);

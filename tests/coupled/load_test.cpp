@@ -18,7 +18,7 @@ namespace {
 using namespace eccentra::test;
 namespace fs = std::filesystem;
 
-constexpr int kSteps = 16 * kStepsPerMeeting;
+constexpr int kSteps = 16 * kStepsPerCouplingStep;
 
 /// All bodies lie in the lower half of the box, which is one rank's.
 BoxCase heaped(const std::string& link, bool balanced) {
@@ -34,11 +34,11 @@ BoxCase heaped(const std::string& link, bool balanced) {
   return box;
 }
 
-/// The number after `words` in what the run has printed about its load.
-double reported(const std::string& text, const std::string& words) {
+/// The number after `arguments` in what the run has printed about its load.
+double reported(const std::string& text, const std::string& arguments) {
   const auto line = text.find("rank(s) of DEM in ");
-  const auto at = text.find(words, line);
-  return line == std::string::npos || at == std::string::npos ? -1 : std::atof(text.c_str() + at + words.size());
+  const auto at = text.find(arguments, line);
+  return line == std::string::npos || at == std::string::npos ? -1 : std::atof(text.c_str() + at + arguments.size());
 }
 
 void expect_same(const std::vector<double>& bodies, const std::vector<double>& reference) {

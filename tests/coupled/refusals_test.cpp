@@ -66,7 +66,7 @@ TEST(CoupledRefusals, BoxOfAnotherLength) {
                  "the periodic direction z spans 0 to 0.07 m in the DEM script but 0 to 0.06 m in the mesh");
 }
 
-TEST(CoupledRefusals, ScriptWithoutAMeeting) {
+TEST(CoupledRefusals, ScriptWithoutACouplingStep) {
   BoxCase box = one_sphere();
   box.script = replaced(box.script, "fix flow all fluid/couple link solver every 40", "");
   box.script = replaced(box.script, "fix mud", "#");

@@ -20,7 +20,7 @@ using namespace eccentra::test;
 namespace fs = std::filesystem;
 
 constexpr int kInterval = 40, kMeasured = 200, kPause = 200, kSteps = 800;
-constexpr int kMeetings = kSteps / kInterval + 1;
+constexpr int kCouplingSteps = kSteps / kInterval + 1;
 
 /// Spheres in a vertical periodic box. A pressure gradient of a fifth of their weight begins at step 300, when the
 /// first verdict (step 200) has been spoken and the second (step 600) has not.
@@ -70,12 +70,12 @@ void expect_shrinks_and_grows(const Outcome& outcome) {
   EXPECT_NE(outcome.text.find("to the fluid, 32 back"), std::string::npos) << outcome.text;
   EXPECT_NE(outcome.text.find("to the fluid, 56 back"), std::string::npos) << outcome.text;
   // Meetings 0 to 4 see all effects, so do those at steps 400 to 600; the pressure gradient comes back to stay.
-  const int all = kMeasured / kInterval, again = kMeasured / kInterval + 1, rest = kMeetings - (400 / kInterval);
+  const int all = kMeasured / kInterval, again = kMeasured / kInterval + 1, rest = kCouplingSteps - (400 / kInterval);
   EXPECT_EQ(number_after(outcome.text, "meetings: pressureGradient "), all + rest) << outcome.text;
   EXPECT_EQ(number_after(outcome.text, "times, stressDivergence "), all + again) << outcome.text;
-  EXPECT_EQ(number_after(outcome.text, "velocity gradient "), kMeetings);
+  EXPECT_EQ(number_after(outcome.text, "velocity gradient "), kCouplingSteps);
   const double back =
-      27e-6 * (104 * (all + again) + 32 * (400 / kInterval - all) + 56 * (kMeetings - 400 / kInterval - again));
+      27e-6 * (104 * (all + again) + 32 * (400 / kInterval - all) + 56 * (kCouplingSteps - 400 / kInterval - again));
   EXPECT_NEAR(number_after(outcome.text, "MB of particles to the fluid, "), back, 1e-5 * back) << outcome.text;
 }
 

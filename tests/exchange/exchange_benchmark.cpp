@@ -35,28 +35,28 @@ std::vector<std::array<double, 3>> scatter() {
 }
 
 /// What link solver adds to the work of both sides: particles reach the rank and cell where they are, seven doubles and
-/// the ticket come back.
+/// the cell hint come back.
 void travel(benchmark::State& state) {
   std::vector<std::array<double, 3>> position = scatter(), zero(kParticles, {0, 0, 0});
   const std::vector<double> volume(kParticles, 1e-9), drag(kParticles, 1e-8);
   std::vector<double> samples(7 * std::size_t(kParticles));
-  std::vector<link::Ticket> tickets(kParticles);
+  std::vector<link::CellHint> cellHints(kParticles);
   link::ParticleArrays particles;
   particles.count = kParticles;
   particles.position = reinterpret_cast<const double(*)[3]>(position.data());
   particles.volume = volume.data();
   particles.impulse = reinterpret_cast<const double(*)[3]>(zero.data());
   particles.drag_coefficient = drag.data();
-  particles.ticket = tickets.data();
-  guests present(*sharedMesh);
+  particles.cell_hint = cellHints.data();
+  particlePoints present(*sharedMesh);
   for (auto _ : state) {
     for (auto& x : position)
       x[2] = std::fmod(x[2] + 3e-5, kLength);
     present.invite(particles, VoidFraction::centre, 0);
     present.answer(
-        7, 0, [](const Guest& guest, double* values) { std::fill_n(values, 7, guest.volume); },
+        7, 0, [](const ParticlePoint& particlePoint, double* values) { std::fill_n(values, 7, particlePoint.volume); },
         [&](int row, const double* centre, const double*) { std::copy_n(centre, 7, &samples[7 * std::size_t(row)]); },
-        tickets.data());
+        cellHints.data());
   }
   state.SetItemsProcessed(state.iterations() * kParticles);
 }
@@ -65,15 +65,15 @@ void exchangeOf(benchmark::State& state, VoidFraction method) {
   std::vector<std::array<double, 3>> position = scatter(), zero(kParticles, {0, 0, 0}), velocity(kParticles),
                                      pressure(kParticles);
   const std::vector<double> volume(kParticles, M_PI / 6 * std::pow(kDiameter, 3)), drag(kParticles, 1e-8);
-  std::vector<link::Ticket> tickets(kParticles);
+  std::vector<link::CellHint> cellHints(kParticles);
   link::ParticleArrays particles;
   particles.count = kParticles;
   particles.position = reinterpret_cast<const double(*)[3]>(position.data());
   particles.volume = volume.data();
   particles.impulse = reinterpret_cast<const double(*)[3]>(zero.data());
   particles.drag_coefficient = drag.data();
-  particles.ticket = tickets.data();
-  fluid::FluidSamples samples;
+  particles.cell_hint = cellHints.data();
+  link::FluidSamples samples;
   samples.velocity = reinterpret_cast<double(*)[3]>(velocity.data());
   samples.pressure_gradient = reinterpret_cast<double(*)[3]>(pressure.data());
   Foam::volVectorField u(Foam::IOobject("u", sharedMesh->time().timeName(), *sharedMesh), *sharedMesh,
@@ -88,7 +88,7 @@ void exchangeOf(benchmark::State& state, VoidFraction method) {
   Foam::scalarField solid, dragField;
   Foam::vectorField force;
   for (auto _ : state) {
-    // A shift of a thirtieth of a millimetre: what particles do between two meetings.
+    // A shift of a thirtieth of a millimetre: what particles do between two coupling steps.
     for (auto& x : position)
       x[2] = std::fmod(x[2] + 3e-5, kLength);
     exchange.deposit(particles, 5e-3, solid, &force, &dragField);

@@ -41,7 +41,7 @@ struct Scene {
   std::vector<std::array<double, 3>> position, impulse, velocitySample, pressureSample, vorticitySample;
   std::vector<double> volume, drag, fractionSample;
   std::vector<std::array<double, 9>> extent;
-  std::vector<link::Ticket> ticket;
+  std::vector<link::CellHint> cell_hint;
   int dealt = 0;
 
   void add(double x, double y, double z, std::mt19937& random) {
@@ -62,23 +62,23 @@ struct Scene {
   link::ParticleArrays arrays(bool clusters = false) {
     link::ParticleArrays view;
     view.count = position.size();
-    ticket.resize(view.count);
+    cell_hint.resize(view.count);
     view.position = reinterpret_cast<const double(*)[3]>(position.data());
     view.volume = volume.data();
     view.impulse = reinterpret_cast<const double(*)[3]>(impulse.data());
     view.drag_coefficient = drag.data();
     if (clusters)
       view.extent = reinterpret_cast<const double(*)[9]>(extent.data());
-    view.ticket = ticket.data();
+    view.cell_hint = cell_hint.data();
     return view;
   }
 
-  fluid::FluidSamples samples() {
+  link::FluidSamples samples() {
     velocitySample.resize(position.size());
     pressureSample.resize(position.size());
     vorticitySample.resize(position.size());
     fractionSample.resize(position.size());
-    fluid::FluidSamples view;
+    link::FluidSamples view;
     view.velocity = reinterpret_cast<double(*)[3]>(velocitySample.data());
     view.fraction = fractionSample.data();
     view.pressure_gradient = reinterpret_cast<double(*)[3]>(pressureSample.data());
@@ -144,17 +144,17 @@ void checkBalances(Scene scene, bool clusters) {
     Foam::scalarField solid, drag;
     Foam::vectorField force;
     const link::ParticleArrays particles = scene.arrays(clusters);
-    std::fill(scene.ticket.begin(), scene.ticket.end(), link::Ticket{});
+    std::fill(scene.cell_hint.begin(), scene.cell_hint.end(), link::CellHint{});
     const auto u = fieldOf([](const Foam::point& x) { return Foam::vector(std::sin(50 * x.x()), x.y(), 1); });
     const Foam::vectorField gradient(u().primitiveField() * 1000.0);
     Foam::volScalarField alpha(Foam::IOobject("alpha", sharedMesh->time().timeName(), *sharedMesh), *sharedMesh,
                                Foam::dimensionedScalar("1", Foam::dimless, 1), "zeroGradient");
-    // Twice: the second time the particles are found from their tickets.
-    for (int meeting = 0; meeting < 2; ++meeting) {
+    // Twice: the second time the particles are found from their cell hint.
+    for (int couplingStep = 0; couplingStep < 2; ++couplingStep) {
       exchange.deposit(particles, kElapsed, solid, &force, &drag);
       EXPECT_GE(Foam::gMin(solid), -settings.tolerance);
       EXPECT_TRUE(exchange.balance().fits);
-      EXPECT_LE(Foam::gMax(solid), exchange.settings().mostSolid * 1.01);
+      EXPECT_LE(Foam::gMax(solid), exchange.settings().maxSolid * 1.01);
       alpha.primitiveFieldRef() = 1.0 - solid;
       alpha.correctBoundaryConditions();
       FlowFields flow;
@@ -172,7 +172,7 @@ void checkBalances(Scene scene, bool clusters) {
         EXPECT_NEAR(-forceSum[k] * kElapsed, balance.particleImpulse[k], 1e-12 * balance.impulseScale);
         EXPECT_NEAR(balance.meshPressureForce[k], balance.particlePressureForce[k], 1e-12 * balance.pressureForceScale);
       }
-      EXPECT_EQ(exchange.present().searched(), meeting == 0 ? scene.position.size() : 0u);
+      EXPECT_EQ(exchange.present().searched(), couplingStep == 0 ? scene.position.size() : 0u);
     }
   }
 }
@@ -197,12 +197,12 @@ TEST(Exchange, EveryGuestLiesInItsCellOrBehindAWall) {
     Foam::scalarField solid;
     exchange.deposit(scene.arrays(), 0, solid, nullptr, nullptr);
     int here = 0, inside = 0;
-    for (const Guest& guest : exchange.present().here()) {
-      const Foam::point x(guest.at.position[0], guest.at.position[1], guest.at.position[2]);
+    for (const ParticlePoint& particlePoint : exchange.present().here()) {
+      const Foam::point x(particlePoint.at.position[0], particlePoint.at.position[1], particlePoint.at.position[2]);
       const bool nearWall =
           std::hypot(x.x(), x.y()) > 0.99 * kHole || std::hypot(x.x(), x.y() + kOffset) < 1.02 * kPipe;
       ++here;
-      inside += nearWall || sharedMesh->pointInCell(x, guest.at.cell, Foam::polyMesh::FACE_PLANES);
+      inside += nearWall || sharedMesh->pointInCell(x, particlePoint.at.cell, Foam::polyMesh::FACE_PLANES);
     }
     EXPECT_EQ(inside, here);
     EXPECT_EQ(Foam::returnReduce(here, Foam::sumOp<int>()), 500);
@@ -229,7 +229,7 @@ TEST(Exchange, TrafficGrowsWithTheParticlesThatCrossBetweenRanks) {
       exchange.sample({}, scene.arrays(), {});
       return exchange.present().traffic().bytes;
     };
-    // At the first meeting all are searched for.
+    // At the first coupling step all are searched for.
     const double search = meet();
     return meet() - search;
   };
@@ -240,11 +240,11 @@ TEST(Exchange, TrafficGrowsWithTheParticlesThatCrossBetweenRanks) {
     EXPECT_EQ(more, 0);
     return;
   }
-  EXPECT_GT(less, 100 * sizeof(Guest) / 2);
+  EXPECT_GT(less, 100 * sizeof(ParticlePoint) / 2);
   EXPECT_NEAR(more / less, 4, 4 * kRandom);
   Scene at_home = scattered(0);
   for (std::size_t row = 0; row < many.position.size(); ++row)
-    if (many.ticket[row].rank == rank()) {
+    if (many.cell_hint[row].rank == rank()) {
       at_home.position.push_back(many.position[row]);
       at_home.impulse.push_back(many.impulse[row]);
       at_home.volume.push_back(many.volume[row]);
@@ -266,7 +266,7 @@ TEST(Exchange, LinearFieldsAreSampledExactly) {
       fieldOf([=](const Foam::point& x) { return Foam::vector(a * x.y() + 1, b * x.x() - 2, 5 * x.x() + x.y()); });
   FlowFields flow;
   flow.velocity = &u();
-  fluid::FluidSamples samples = scene.samples();
+  link::FluidSamples samples = scene.samples();
   samples.fraction = nullptr;
   samples.pressure_gradient = nullptr;
   exchange.sample(flow, particles, samples);
@@ -399,7 +399,7 @@ TEST(Exchange, SettingsThatMakeNoSenseAreNamed) {
   settings.length = 0;
   EXPECT_NE(message(settings).find("length"), std::string::npos);
   settings = settingsOf(VoidFraction::centre);
-  settings.mostSolid = 1.5;
+  settings.maxSolid = 1.5;
   EXPECT_NE(message(settings).find("mostSolid is 1.5"), std::string::npos);
   settings = settingsOf(VoidFraction::centre);
   settings.fractionFloor = -0.1;

@@ -15,10 +15,10 @@ std::string program() {
   return std::string(std::getenv("ECCENTRA_BIN")) + "/annulusFoam";
 }
 
-/// Number that follows the last occurrence of these words.
-double last_after(const std::string& text, const std::string& words) {
-  const size_t at = text.rfind(words);
-  return at == std::string::npos ? NAN : std::atof(text.c_str() + at + words.size());
+/// Number that follows the last occurrence of these arguments.
+double last_after(const std::string& text, const std::string& arguments) {
+  const size_t at = text.rfind(arguments);
+  return at == std::string::npos ? NAN : std::atof(text.c_str() + at + arguments.size());
 }
 
 void section(FlowCase& flow_case) {

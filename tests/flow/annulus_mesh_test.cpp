@@ -55,10 +55,10 @@ TEST(AnnulusGrid, GradingWidensTheMiddle) {
   EXPECT_NEAR(other / wall, 1, 1e-9);
 }
 
-/// Number that follows the last occurrence of these words.
-double number_after(const std::string& text, const std::string& words) {
-  const size_t at = text.find(words);
-  return at == std::string::npos ? NAN : std::atof(text.c_str() + at + words.size());
+/// Number that follows the last occurrence of these arguments.
+double number_after(const std::string& text, const std::string& arguments) {
+  const size_t at = text.find(arguments);
+  return at == std::string::npos ? NAN : std::atof(text.c_str() + at + arguments.size());
 }
 
 TEST(AnnulusMesh, QualityAndVolumeAtEveryEccentricity) {

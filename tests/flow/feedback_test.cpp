@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The shares that keep a suspension from answering to itself: the loop between two meetings, in a box through which
-// nothing flows, does not grow, whatever density, fraction and drag.
+// The shares that keep a suspension from answering to itself: the loop between two coupling steps, in a box through
+// which nothing flows, does not grow, whatever density, fraction and drag.
 #include "flow/feedbackShares.H"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ struct State {
   double x = 0, v = 0;               ///< particles
   double known = 0, knownBefore = 0; ///< place as the fluid knows it
   double u = 0, uBefore = 0;         ///< fluid
-  double told = 0;                   ///< pressure force of the coming interval
+  double applied = 0;                ///< pressure force of the coming interval
   double withheld = 0;
 };
 
@@ -34,14 +34,14 @@ struct Loop {
     State next;
     const double follows = -std::expm1(-k);
     if (k > 0) {
-      const double end = s.u + s.told / k;
+      const double end = s.u + s.applied / k;
       next.v = end + (s.v - end) * (1 - follows);
       next.x = s.x + end + (s.v - end) * follows / k;
     } else {
-      next.v = s.v + s.told;
-      next.x = s.x + s.v + 0.5 * s.told;
+      next.v = s.v + s.applied;
+      next.x = s.x + s.v + 0.5 * s.applied;
     }
-    const double impulse = s.v + s.told - next.v;
+    const double impulse = s.v + s.applied - next.v;
     next.known = s.known + theta * (next.x - s.known);
     next.knownBefore = s.known;
     next.u = -load.displaced * (1.5 * next.known - 2 * s.known + 0.5 * s.knownBefore);
@@ -50,7 +50,7 @@ struct Loop {
     next.withheld = follows * (next.u - s.u);
     const double onFluid = impulse - next.withheld + s.withheld;
     const double pressure = load.lightness * acceleration - load.displaced * onFluid;
-    next.told = s.told + omega * (pressure - s.told);
+    next.applied = s.applied + omega * (pressure - s.applied);
     return next;
   }
 
@@ -68,12 +68,12 @@ struct Loop {
       s.knownBefore -= s.x;
       s.x = 0;
       double size = 0;
-      for (const double part : {s.v, s.known, s.knownBefore, s.u, s.uBefore, s.told, s.withheld})
+      for (const double part : {s.v, s.known, s.knownBefore, s.u, s.uBefore, s.applied, s.withheld})
         size += part * part;
       size = std::sqrt(size);
       if (size < 1e-200)
         return 0;
-      for (double* part : {&s.v, &s.known, &s.knownBefore, &s.u, &s.uBefore, &s.told, &s.withheld})
+      for (double* part : {&s.v, &s.known, &s.knownBefore, &s.u, &s.uBefore, &s.applied, &s.withheld})
         *part /= size;
       if (i >= kIntervals / 2)
         sum += std::log(size);

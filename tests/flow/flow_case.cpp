@@ -224,9 +224,9 @@ void FlowCase::advance(int steps, const std::function<void(double)>& before) {
   }
 }
 
-double FlowCase::steady(const std::function<double()>& value, double tolerance, int most_steps) {
+double FlowCase::steady(const std::function<double()>& value, double tolerance, int max_steps) {
   double last = 0, present = 0;
-  for (int i = 0; i < most_steps; ++i) {
+  for (int i = 0; i < max_steps; ++i) {
     advance(1);
     last = present;
     present = value();
@@ -234,7 +234,7 @@ double FlowCase::steady(const std::function<double()>& value, double tolerance, 
       return present;
     }
   }
-  ADD_FAILURE() << "not steady after " << most_steps << " steps: " << last << ", then " << present;
+  ADD_FAILURE() << "not steady after " << max_steps << " steps: " << last << ", then " << present;
   return present;
 }
 

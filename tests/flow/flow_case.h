@@ -68,7 +68,7 @@ class FlowCase {
   /// Steps of the flow; before(t) is called after ++time.
   void advance(int steps, const std::function<void(double)>& before = {});
   /// Long steps until the value changes by less than the relative tolerance in one step; returns the value.
-  double steady(const std::function<double()>& value, double tolerance, int most_steps);
+  double steady(const std::function<double()>& value, double tolerance, int max_steps);
 
  private:
   std::string folder_;

@@ -22,7 +22,7 @@ constexpr double time_allowed = 20; // seconds, with a machine that is busy; an 
 
 /// A program with its input that works, which every bad case changes in one place.
 struct Base {
-  std::vector<std::string> words;           ///< the command; the first word is looked up in our bin folder
+  std::vector<std::string> arguments;       ///< the command; the first word is looked up in our bin folder
   std::map<std::string, std::string> files; ///< input files by name
   std::string copy;                         ///< folder of the source tree whose files come first
   double timeout = time_allowed;
@@ -38,12 +38,12 @@ struct Case {
   std::string name;
   Base base;
   std::vector<Change> changes;
-  std::vector<std::string> says; ///< words that the sentence must hold: file or keyword, value, remedy
+  std::vector<std::string> says; ///< arguments that the sentence must hold: file or keyword, value, remedy
 };
 
 Base parse_base(const YAML::Node& node) {
   Base base;
-  base.words = node["run"].as<std::vector<std::string>>();
+  base.arguments = node["run"].as<std::vector<std::string>>();
   for (const auto& file : node["files"])
     base.files[file.first.as<std::string>()] = file.second.as<std::string>();
   if (node["copy"]) {
@@ -66,7 +66,7 @@ Case parse_case(const YAML::Node& node, const std::map<std::string, Base>& bases
   bad.base = bases.at(node["base"].as<std::string>());
   bad.says = node["says"].as<std::vector<std::string>>();
   if (node["run"])
-    bad.base.words = node["run"].as<std::vector<std::string>>();
+    bad.base.arguments = node["run"].as<std::vector<std::string>>();
   for (const auto& file : node["files"])
     bad.base.files[file.first.as<std::string>()] = file.second.as<std::string>();
   const std::string first_file = bad.base.files.empty() ? "" : bad.base.files.begin()->first;
@@ -84,14 +84,14 @@ Case parse_case(const YAML::Node& node, const std::map<std::string, Base>& bases
 ProgramResult execute(const Base& base, const fs::path& folder) {
   for (const auto& [name, text] : base.files)
     write_file(folder / name, text);
-  std::vector<std::string> words = base.words;
-  for (std::string& word : words) {
+  std::vector<std::string> arguments = base.arguments;
+  for (std::string& word : arguments) {
     const fs::path ours = fs::path(required_environment("ECCENTRA_BIN")) / word;
     if (word.find('/') == std::string::npos && fs::is_regular_file(ours))
       word = ours;
   }
   const std::string path = required_environment("ECCENTRA_BIN") + ":" + required_environment("PATH");
-  return run_program(words, {folder, {"PATH=" + path}, base.timeout});
+  return run_program(arguments, {folder, {"PATH=" + path}, base.timeout});
 }
 
 /// The sentences in which a program says that it stops: "ERROR: ..." (LIGGGHTS), "tool: error: ..." and the like
@@ -104,7 +104,7 @@ std::vector<std::string> sentences(const std::string& output) {
       R"(^(\[\d+\] )?((ERROR( on proc \d+)?|[A-Za-z-]+: error): |clusterShape: |annulusFoam: the DEM script ended))");
   for (std::string before; std::getline(lines, line); before = line) {
     if (line.rfind("Run with --help", 0) == 0) {
-      found.push_back(before); // as CLI11 refuses words
+      found.push_back(before); // as CLI11 refuses arguments
     } else if (std::regex_search(line, said)) {
       found.push_back(line);
     } else if (line.find("--> FOAM FATAL") != std::string::npos) {

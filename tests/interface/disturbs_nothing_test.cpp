@@ -60,7 +60,7 @@ std::string shortened(const std::string& script, int steps) {
   return result;
 }
 
-/// The thermo table without the columns that hold times of the clock, as one row of words per line.
+/// The thermo table without the columns that hold times of the clock, as one row of arguments per line.
 std::vector<std::vector<std::string>> thermo_table(const std::string& output) {
   const std::set<std::string> clock = {"CPU", "T/CPU", "S/CPU", "CPULeft"};
   std::vector<std::vector<std::string>> table;
@@ -70,23 +70,23 @@ std::vector<std::vector<std::string>> thermo_table(const std::string& output) {
   bool inside = false;
   while (std::getline(lines, line)) {
     std::istringstream stream(line);
-    std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
-    if (words.empty())
+    std::vector<std::string> arguments{std::istream_iterator<std::string>(stream), {}};
+    if (arguments.empty())
       continue;
-    if (words[0] == "Step") {
+    if (arguments[0] == "Step") {
       inside = true;
       keep.clear();
-      for (const std::string& word : words)
+      for (const std::string& word : arguments)
         keep.push_back(clock.count(word) == 0);
     }
-    if (words[0] == "Loop")
+    if (arguments[0] == "Loop")
       inside = false;
-    if (!inside || words.size() != keep.size())
+    if (!inside || arguments.size() != keep.size())
       continue; // a message among the rows, or outside the table
     std::vector<std::string> row;
-    for (std::size_t i = 0; i < words.size(); ++i)
+    for (std::size_t i = 0; i < arguments.size(); ++i)
       if (keep[i])
-        row.push_back(words[i]);
+        row.push_back(arguments[i]);
     table.push_back(row);
   }
   return table;
@@ -106,9 +106,9 @@ class Examples : public testing::TestWithParam<Example> {
     options.directory = folder;
     if (!preload.empty())
       options.environment.push_back("LD_PRELOAD=" + preload);
-    std::vector<std::string> words = program;
-    words.insert(words.end(), {"-in", "in.short", "-log", "none"});
-    ProgramResult result = run_program(words, options);
+    std::vector<std::string> arguments = program;
+    arguments.insert(arguments.end(), {"-in", "in.short", "-log", "none"});
+    ProgramResult result = run_program(arguments, options);
     fs::remove_all(folder / "post");
     return result;
   }

@@ -40,7 +40,7 @@ class Setup : public testing::Test {
   }
 
   /// Fails, with exactly one line that starts as an error and holds every word.
-  static void expect_one_sentence(const ProgramResult& run, const std::vector<std::string>& words) {
+  static void expect_one_sentence(const ProgramResult& run, const std::vector<std::string>& arguments) {
     EXPECT_EQ(run.status, 1) << run.output;
     std::string error;
     std::size_t errors = 0;
@@ -56,7 +56,7 @@ class Setup : public testing::Test {
       start = end + 1;
     }
     EXPECT_EQ(errors, 1U) << run.output;
-    for (const std::string& word : words)
+    for (const std::string& word : arguments)
       EXPECT_NE(error.find(word), std::string::npos) << "'" << word << "' is missing in: " << error;
   }
 

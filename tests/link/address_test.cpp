@@ -21,10 +21,10 @@ TEST(Address, OfThisMachine) {
 }
 
 TEST(Address, ThatOtherMachinesReachIsRefused) {
-  for (const char* words :
+  for (const char* arguments :
        {"tcp://0.0.0.0:5555", "tcp://*:5555", "tcp://192.168.0.1:5555", "tcp://127.0.0.1.example:5555",
         "tcp://[::]:5555", "tcp://128.0.0.1:5555", "tcp://127.0.0.256:5555", "tcp://eth0:5555"})
-    EXPECT_THROW(endpoint_of(words), Refusal) << words;
+    EXPECT_THROW(endpoint_of(arguments), Refusal) << arguments;
 }
 
 TEST(Address, ThatOtherMachinesReachIsTakenWithKeys) {
@@ -36,13 +36,13 @@ TEST(Address, ThatOtherMachinesReachIsTakenWithKeys) {
 
 TEST(Address, ThatIsNoneIsRefused) {
   const std::string endless = "ipc:///" + std::string(200, 'x');
-  for (const char* words :
+  for (const char* arguments :
        {"", "ipc://", "ipc://@hidden", "tcp://127.0.0.1", "tcp://127.0.0.1:", "tcp://127.0.0.1:0",
         "tcp://127.0.0.1:65536", "tcp://127.0.0.1:80x", "tcp://:5555", "pgm://x:1", endless.c_str()})
-    EXPECT_THROW(endpoint_of(words), Refusal) << words;
+    EXPECT_THROW(endpoint_of(arguments), Refusal) << arguments;
 }
 
-TEST(Address, PatienceIsPositive) {
+TEST(Address, TimeoutIsPositive) {
   EXPECT_NO_THROW(check({5, 5}));
   EXPECT_THROW(check({0, 5}), Refusal);
   EXPECT_THROW(check({5, -1}), Refusal);

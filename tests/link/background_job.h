@@ -21,7 +21,7 @@ namespace eccentra::test {
 /// Ends with the test at the latest.
 class BackgroundJob {
  public:
-  /// Runs `words` in `folder`; what it prints goes to `log` there.
+  /// Runs `arguments` in `folder`; what it prints goes to `log` there.
   BackgroundJob(const std::string& folder, const std::vector<std::string>& words, const std::string& log)
       : log_(folder + '/' + log) {
     std::vector<char*> arguments;

@@ -15,8 +15,8 @@ namespace {
 using namespace eccentra::test;
 namespace fs = std::filesystem;
 
-constexpr int kEvery = 8; ///< meetings from one checkpoint to the next
-constexpr int kMeetings = 120;
+constexpr int kEvery = 8; ///< coupling steps from one checkpoint to the next
+constexpr int kCouplingSteps = 120;
 
 BoxCase two_job_scene(const std::string& name, int steps, const std::string& more = "") {
   BoxCase box = stirred_box("socket " + socket_address(name) + " every 40 checkpoint " + std::to_string(kEvery) +
@@ -26,7 +26,7 @@ BoxCase two_job_scene(const std::string& name, int steps, const std::string& mor
   return box;
 }
 
-constexpr int kSteps = kMeetings * kStepsPerMeeting;
+constexpr int kSteps = kCouplingSteps * kStepsPerCouplingStep;
 
 /// A coupled run that is caught in its middle. The DEM side runs in the case's folder, too.
 struct Jobs {
@@ -50,14 +50,14 @@ struct Jobs {
     fluid_ranks = 2;
   }
   void start(const std::vector<std::string>& more = {}, int ranks = 1) {
-    std::vector<std::string> fluid_words = more;
+    std::vector<std::string> fluid_arguments = more;
     if (fluid_ranks > 1)
-      fluid_words.push_back("-parallel");
-    fluid = std::make_unique<BackgroundJob>(folder, command("annulusFoam", fluid_words, fluid_ranks), "log.fluid");
-    std::vector<std::string> words = {"-in", "in.dem", "-log", "none"};
-    words.insert(words.end(), more.begin(), more.end());
+      fluid_arguments.push_back("-parallel");
+    fluid = std::make_unique<BackgroundJob>(folder, command("annulusFoam", fluid_arguments, fluid_ranks), "log.fluid");
+    std::vector<std::string> arguments = {"-in", "in.dem", "-log", "none"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
     // Another number of ranks on one side only.
-    particles = std::make_unique<BackgroundJob>(folder, command("eccentra-dem", words, ranks), "log.dem");
+    particles = std::make_unique<BackgroundJob>(folder, command("eccentra-dem", arguments, ranks), "log.dem");
   }
   /// Once some checkpoints are there.
   void wait_for_middle() {
@@ -156,7 +156,7 @@ TEST(Faults, FullDiskOfTheFluid) {
   jobs.start();
   jobs.wait_for_middle();
   jobs.fluid->limit_files(8192);
-  // Its own words do not fit on the disk either.
+  // Its own arguments do not fit on the disk either.
   jobs.expect_end("", "cannot write");
   // What was there before is whole.
   jobs.start({"-resume"});

@@ -20,7 +20,7 @@
 
 namespace eccentra::test {
 
-constexpr unsigned kAsked = fluid::kVelocity | fluid::kFraction;
+constexpr unsigned kAsked = link::kVelocity | link::kFraction;
 
 inline int world_rank() {
   return link::rank_of(MPI_COMM_WORLD);
@@ -52,7 +52,8 @@ class EchoFluid : public link::FluidPeer {
     terms.offered = kAsked;
     return terms;
   }
-  int meet(const link::Meeting&, const link::ParticleArrays& particles, const fluid::FluidSamples& samples) override {
+  int meet(const link::CouplingStep&, const link::ParticleArrays& particles,
+           const link::FluidSamples& samples) override {
     long long all = 0;
     const auto own = static_cast<long long>(particles.count);
     MPI_Allreduce(&own, &all, 1, MPI_LONG_LONG, MPI_SUM, ranks_);
@@ -60,7 +61,7 @@ class EchoFluid : public link::FluidPeer {
       for (int k = 0; k < 3; ++k)
         samples.velocity[i][k] = particles.position[i][k];
       samples.fraction[i] = double(all);
-      particles.ticket[i] = {link::rank_of(ranks_), 0};
+      particles.cell_hint[i] = {link::rank_of(ranks_), 0};
     }
     if (fails)
       throw std::runtime_error("the mud has boiled");
@@ -88,23 +89,23 @@ inline link::DemTerms some_terms() {
 /// A rank's particles.
 struct Flock {
   std::vector<double> position, volume, impulse, velocity, fraction;
-  std::vector<link::Ticket> ticket;
+  std::vector<link::CellHint> cell_hint;
   using Vectors = double (*)[3];
 
   Flock(std::size_t count, int rank)
       : position(3 * count), volume(count, 1e-7), impulse(3 * count), velocity(3 * count), fraction(count),
-        ticket(count) {
+        cell_hint(count) {
     for (std::size_t i = 0; i < position.size(); ++i)
       position[i] = rank + 1e-3 * double(i);
   }
   link::ParticleArrays arrays() {
-    return {volume.size(), reinterpret_cast<Vectors>(position.data()),
-            volume.data(), reinterpret_cast<Vectors>(impulse.data()),
-            volume.data(), nullptr,
-            ticket.data()};
+    return {volume.size(),   reinterpret_cast<Vectors>(position.data()),
+            volume.data(),   reinterpret_cast<Vectors>(impulse.data()),
+            volume.data(),   nullptr,
+            cell_hint.data()};
   }
-  fluid::FluidSamples samples() {
-    fluid::FluidSamples samples;
+  link::FluidSamples samples() {
+    link::FluidSamples samples;
     samples.velocity = reinterpret_cast<Vectors>(velocity.data());
     samples.fraction = fraction.data();
     return samples;
@@ -134,40 +135,40 @@ struct Sides {
 struct LoneDem {
   link::Channel main;
   std::string path;
-  std::unique_ptr<link::Channel> lane;
+  std::unique_ptr<link::Channel> connection;
 
   explicit LoneDem(const std::string& place) : main(link::Channel::Side::dem, place, {}), path(place) {
     link::DemTerms terms = some_terms();
-    terms.lanes = 1;
+    terms.rank_connections = 1;
     main.send(link::Channel::Message(link::wire::encode(terms)));
     main.receive();
-    EXPECT_EQ(link::wire::kind_of(main.receive().view()), link::wire::Kind::lanes);
+    EXPECT_EQ(link::wire::kind_of(main.receive().view()), link::wire::Kind::rank_connections);
   }
   void come() {
-    lane = std::make_unique<link::Channel>(link::Channel::Side::dem, link::Address(link::Address(path), 1),
-                                           link::Patience());
+    connection = std::make_unique<link::Channel>(link::Channel::Side::dem, link::Address(link::Address(path), 1),
+                                                 link::Timeout());
     say_rows(0);
   }
-  void say_rows(std::int64_t meeting, std::uint32_t rank = 1) const {
+  void say_rows(std::int64_t coupling_step, std::uint32_t rank = 1) const {
     link::Channel::Message rows(link::wire::kHeaderBytes + link::wire::kRowsBytes);
-    link::wire::write_rows_head(rows.data(), {rank, meeting}, 0, false);
-    lane->send(std::move(rows));
+    link::wire::write_rows_head(rows.data(), {rank, coupling_step}, 0, false);
+    connection->send(std::move(rows));
   }
   /// Comes, and meets once.
   void begin() {
     come();
-    say_meeting(0);
+    say_coupling_step(0);
     say_rows(1);
     main.receive();
-    lane->receive();
+    connection->receive();
   }
-  void say_meeting(std::int64_t particles, std::int64_t number = 1) {
-    link::Meeting meeting;
-    meeting.needed = kAsked;
-    meeting.number = number;
-    meeting.totals.particles = particles;
-    link::Channel::Message head(link::wire::kHeaderBytes + link::wire::kMeetingBytes);
-    link::wire::write_meeting_head(head.data(), meeting, 0, false);
+  void say_coupling_step(std::int64_t particles, std::int64_t number = 1) {
+    link::CouplingStep coupling_step;
+    coupling_step.needed = kAsked;
+    coupling_step.number = number;
+    coupling_step.totals.particles = particles;
+    link::Channel::Message head(link::wire::kHeaderBytes + link::wire::kCouplingStepBytes);
+    link::wire::write_coupling_step_head(head.data(), coupling_step, 0, false);
     main.send(std::move(head));
   }
 };
@@ -175,26 +176,26 @@ struct LoneDem {
 /// A fluid side of one process, to two ranks of DEM.
 struct LoneFluid {
   link::Channel main;
-  std::unique_ptr<link::Channel> lane;
+  std::unique_ptr<link::Channel> connection;
 
   explicit LoneFluid(const std::string& path) : main(link::Channel::Side::fluid, path, {}) {
     const link::DemTerms dem = link::wire::decode_dem_terms(main.receive().view());
-    EXPECT_EQ(dem.lanes, 1u);
+    EXPECT_EQ(dem.rank_connections, 1u);
     link::FluidTerms terms;
     terms.time_step = dem.time_step * double(dem.interval);
     terms.domain = dem.domain;
     terms.offered = kAsked;
-    lane = std::make_unique<link::Channel>(link::Channel::Side::fluid, link::Address(link::Address(path), 1),
-                                           link::Patience());
+    connection = std::make_unique<link::Channel>(link::Channel::Side::fluid, link::Address(link::Address(path), 1),
+                                                 link::Timeout());
     main.send(link::Channel::Message(link::wire::encode(terms)));
-    main.send(link::Channel::Message(link::wire::encode_lanes({1})));
-    lane->receive();
-    EXPECT_EQ(link::wire::kind_of(main.receive().view()), link::wire::Kind::meeting);
-    EXPECT_EQ(link::wire::kind_of(lane->receive().view()), link::wire::Kind::rows);
+    main.send(link::Channel::Message(link::wire::encode_rank_connections({1})));
+    connection->receive();
+    EXPECT_EQ(link::wire::kind_of(main.receive().view()), link::wire::Kind::coupling_step);
+    EXPECT_EQ(link::wire::kind_of(connection->receive().view()), link::wire::Kind::rows);
   }
-  static void answer(link::Channel& channel, std::int64_t meeting) {
+  static void answer(link::Channel& channel, std::int64_t coupling_step) {
     link::Channel::Message samples(link::wire::kHeaderBytes + link::wire::kSamplesBytes);
-    link::wire::write_samples_head(samples.data(), meeting, 0, kAsked);
+    link::wire::write_samples_head(samples.data(), coupling_step, 0, kAsked);
     channel.send(std::move(samples));
   }
 };

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Each rank's particles travel on a connection of their own, whatever the numbers of ranks; where there is none all
-// travel over rank 0 with the same result; a lane that fails ends all ranks of a side with one sentence. Run on five
-// ranks.
+// travel over rank 0 with the same result; a rank connection that fails ends all ranks of a side with one sentence. Run
+// on five ranks.
 #include "link/lane_sides.h"
 #include "link/socket/keys.h"
 
@@ -25,7 +25,7 @@ using namespace eccentra::test;
 namespace fs = std::filesystem;
 using link::wire::Kind;
 
-constexpr int kMeetings = 3;
+constexpr int kCouplingSteps = 3;
 /// Until a fault is noticed [s], and how fast it is where a connection closes.
 constexpr double kNotice = 5.0, kAtOnce = 2.0;
 /// That a fluid side bears where somebody does not come [s].
@@ -36,9 +36,9 @@ std::size_t count_of(int rank) {
   return rank == 1 ? 0 : 40 + 7 * rank;
 }
 
-std::size_t bytes_of_meeting(bool root, std::size_t count) {
+std::size_t bytes_of_coupling_step(bool root, std::size_t count) {
   using namespace link::wire;
-  return 2 * kHeaderBytes + (root ? kMeetingBytes : kRowsBytes) + kSamplesBytes +
+  return 2 * kHeaderBytes + (root ? kCouplingStepBytes : kRowsBytes) + kSamplesBytes +
          count * (particle_row_bytes(false) + samples_row_bytes(kAsked));
 }
 
@@ -54,29 +54,30 @@ std::string run_particles(MPI_Comm ranks, const link::Address& address, Rows row
   link::SocketPeer peer(ranks, address, {}, rows);
   const bool twice_agreed = peer.agree(some_terms()).offered == peer.agree(some_terms()).offered;
   EXPECT_TRUE(twice_agreed);
-  link::Meeting meeting;
-  meeting.needed = kAsked;
-  meeting.totals.particles = static_cast<std::int64_t>(all);
-  const bool lanes = peer.why_over_root().empty();
-  for (int n = 0; n < kMeetings; ++n) {
+  link::CouplingStep coupling_step;
+  coupling_step.needed = kAsked;
+  coupling_step.totals.particles = static_cast<std::int64_t>(all);
+  const bool rank_connections = peer.why_over_root().empty();
+  for (int n = 0; n < kCouplingSteps; ++n) {
     const std::uint64_t before = peer.bytes();
-    EXPECT_EQ(peer.meet(meeting, flock.arrays(), flock.samples()), 15);
-    if (lanes)
-      EXPECT_EQ(peer.bytes() - before, bytes_of_meeting(rank == 0, count_of(rank))) << "of rank " << rank;
+    EXPECT_EQ(peer.meet(coupling_step, flock.arrays(), flock.samples()), 15);
+    if (rank_connections)
+      EXPECT_EQ(peer.bytes() - before, bytes_of_coupling_step(rank == 0, count_of(rank))) << "of rank " << rank;
     else
-      EXPECT_EQ(peer.bytes() - before, rank == 0 ? bytes_of_meeting(true, all) : 0) << "of rank " << rank;
+      EXPECT_EQ(peer.bytes() - before, rank == 0 ? bytes_of_coupling_step(true, all) : 0) << "of rank " << rank;
     EXPECT_EQ(flock.velocity, flock.position);
     for (const double heard_of : flock.fraction)
       EXPECT_EQ(heard_of, double(all));
-    for (const link::Ticket& ticket : flock.ticket)
-      EXPECT_GE(ticket.rank, 0);
+    for (const link::CellHint& cell_hint : flock.cell_hint)
+      EXPECT_GE(cell_hint.rank, 0);
     flock.velocity.assign(flock.velocity.size(), 0);
   }
   return peer.why_over_root();
 }
 
 /// Both sides; on ranks of DEM why all went over rank 0.
-std::string run_both(int dem_ranks, int fluid_ranks, const link::Address& address, Rows rows = Rows::on_lanes) {
+std::string run_both(int dem_ranks, int fluid_ranks, const link::Address& address,
+                     Rows rows = Rows::on_rank_connections) {
   const Sides sides(dem_ranks, fluid_ranks);
   if (sides.role == Sides::dem)
     return run_particles(sides.comm, address, rows);
@@ -143,12 +144,13 @@ void expect_of_dem(const std::string& name, const std::function<void(LoneFluid&)
       if (sides.role == Sides::dem) {
         link::SocketPeer peer(sides.comm, path, {});
         peer.agree(some_terms());
-        link::Meeting meeting;
-        meeting.needed = kAsked;
+        link::CouplingStep coupling_step;
+        coupling_step.needed = kAsked;
         Flock none(0, 0);
-        expect_part(refusal_of(sides.comm, kAtOnce, [&] { peer.meet(meeting, none.arrays(), none.samples()); }), part);
+        expect_part(refusal_of(sides.comm, kAtOnce, [&] { peer.meet(coupling_step, none.arrays(), none.samples()); }),
+                    part);
         // Nothing is left to talk on.
-        EXPECT_THROW(peer.meet(meeting, none.arrays(), none.samples()), link::Refusal);
+        EXPECT_THROW(peer.meet(coupling_step, none.arrays(), none.samples()), link::Refusal);
       }
       MPI_Barrier(MPI_COMM_WORLD);
     }
@@ -158,7 +160,7 @@ void expect_of_dem(const std::string& name, const std::function<void(LoneFluid&)
 
 } // namespace
 
-TEST(Lanes, BytesOfARankAreThoseOfItsOwnParticles) {
+TEST(RankConnections, BytesOfARankAreThoseOfItsOwnParticles) {
   const std::pair<int, int> ranks[] = {{1, 2}, {2, 1}, {3, 2}, {2, 3}, {4, 1}};
   for (const auto& [dem, fluid] : ranks) {
     const std::string path = place("counts");
@@ -167,7 +169,7 @@ TEST(Lanes, BytesOfARankAreThoseOfItsOwnParticles) {
   }
 }
 
-TEST(Lanes, OverRootTheSameArrives) {
+TEST(RankConnections, OverRootTheSameArrives) {
   const std::string path = place("root");
   const std::string why = run_both(3, 2, path, Rows::over_root);
   if (world_rank() < 3) {
@@ -175,7 +177,7 @@ TEST(Lanes, OverRootTheSameArrives) {
   }
 }
 
-TEST(Lanes, PathThatLeavesNoRoomForThemDoesWithout) {
+TEST(RankConnections, PathThatLeavesNoRoomForThemDoesWithout) {
   std::string path = place("long");
   path += std::string(107 - path.size(), 'x');
   const std::string why = run_both(3, 2, path);
@@ -183,7 +185,7 @@ TEST(Lanes, PathThatLeavesNoRoomForThemDoesWithout) {
     expect_part(why, "too long");
 }
 
-TEST(Lanes, FluidThatHasNoRoomForThemSaysSo) {
+TEST(RankConnections, FluidThatHasNoRoomForThemSaysSo) {
   // The same place by a longer name.
   std::string path = place("alias");
   const fs::path folder = fs::path(path).parent_path();
@@ -195,14 +197,14 @@ TEST(Lanes, FluidThatHasNoRoomForThemSaysSo) {
     detour.insert(folder.string().size(), "/");
   const Sides sides(2, 2);
   if (sides.role == Sides::dem) {
-    expect_part(run_particles(sides.comm, path, Rows::on_lanes), "too long");
+    expect_part(run_particles(sides.comm, path, Rows::on_rank_connections), "too long");
   } else if (sides.role == Sides::fluid) {
     EchoFluid fluid(sides.comm);
     link::FluidServer(sides.comm, detour, {}, 1).serve(fluid);
   }
 }
 
-TEST(Lanes, ComeOverTcpWithKeysToo) {
+TEST(RankConnections, ComeOverTcpWithKeysToo) {
   const std::string keys = place("keys");
   const int port = 23600 + getpid() % 300;
   int shared = port;
@@ -216,17 +218,17 @@ TEST(Lanes, ComeOverTcpWithKeysToo) {
     fs::remove_all(keys);
 }
 
-TEST(Lanes, FluidThatFailsTellsAllRanksOneSentence) {
+TEST(RankConnections, FluidThatFailsTellsAllRanksOneSentence) {
   const std::string path = place("boiled");
   {
     const Sides sides(3, 2);
     if (sides.role == Sides::dem) {
       link::SocketPeer peer(sides.comm, path, {});
       peer.agree(some_terms());
-      link::Meeting meeting;
-      meeting.needed = kAsked;
+      link::CouplingStep coupling_step;
+      coupling_step.needed = kAsked;
       Flock none(0, 0);
-      expect_part(refusal_of(sides.comm, kAtOnce, [&] { peer.meet(meeting, none.arrays(), none.samples()); }),
+      expect_part(refusal_of(sides.comm, kAtOnce, [&] { peer.meet(coupling_step, none.arrays(), none.samples()); }),
                   "the mud has boiled");
     } else {
       EchoFluid fluid(sides.comm);
@@ -238,62 +240,62 @@ TEST(Lanes, FluidThatFailsTellsAllRanksOneSentence) {
   EXPECT_EQ(sockets_at(path), 0);
 }
 
-TEST(Lanes, RankThatNeverComesIsMissed) {
+TEST(RankConnections, RankThatNeverComesIsMissed) {
   expect_of_fluid(
       "absent", [](LoneDem&) {}, kNotice, "which is for one of its ranks");
 }
 
-TEST(Lanes, RankThatGoesEndsTheWaitsOfAll) {
+TEST(RankConnections, RankThatGoesEndsTheWaitsOfAll) {
   expect_of_fluid(
       "goes",
       [](LoneDem& dem) {
         dem.begin();
-        dem.say_meeting(0, 2);
-        dem.lane.reset();
+        dem.say_coupling_step(0, 2);
+        dem.connection.reset();
       },
       kAtOnce, "has gone");
 }
 
-TEST(Lanes, RowsOfAnotherMeetingAreRefused) {
+TEST(RankConnections, RowsOfAnotherMeetingAreRefused) {
   expect_of_fluid(
       "meeting",
       [](LoneDem& dem) {
         dem.come();
-        dem.say_meeting(0);
+        dem.say_coupling_step(0);
         dem.say_rows(2);
       },
       kAtOnce, "another meeting");
 }
 
-TEST(Lanes, RowsOfAnotherRankAreRefused) {
+TEST(RankConnections, RowsOfAnotherRankAreRefused) {
   expect_of_fluid(
       "rank",
       [](LoneDem& dem) {
         dem.come();
-        dem.say_meeting(0);
+        dem.say_coupling_step(0);
         dem.say_rows(1, 2);
       },
       kAtOnce, "another rank");
 }
 
-TEST(Lanes, ParticlesThatAreMissingAreNoticed) {
+TEST(RankConnections, ParticlesThatAreMissingAreNoticed) {
   expect_of_fluid(
       "missing",
       [](LoneDem& dem) {
         dem.come();
-        dem.say_meeting(1);
+        dem.say_coupling_step(1);
         dem.say_rows(1);
       },
       kAtOnce, "another number of particles");
 }
 
-// The stranger hears it at the fluid side's next look, which the meeting brings.
-TEST(Lanes, StrangersAreTurnedAwayAndNonsenseIsRefused) {
+// The stranger hears it at the fluid side's next look, which the coupling step brings.
+TEST(RankConnections, StrangersAreTurnedAwayAndNonsenseIsRefused) {
   expect_of_fluid(
       "stranger",
       [](LoneDem& dem) {
         dem.begin();
-        dem.say_meeting(0, 2);
+        dem.say_coupling_step(0, 2);
         link::Channel stranger(link::Channel::Side::dem, link::Address(link::Address(dem.path), 1), {});
         stranger.send(link::Channel::Message(link::wire::encode_bare(Kind::farewell)));
         try {
@@ -302,32 +304,32 @@ TEST(Lanes, StrangersAreTurnedAwayAndNonsenseIsRefused) {
         } catch (const link::Refusal& refusal) {
           expect_part(refusal.what(), "another run uses this address");
         }
-        dem.lane->send(link::Channel::Message(link::wire::encode_bare(Kind::farewell)));
+        dem.connection->send(link::Channel::Message(link::wire::encode_bare(Kind::farewell)));
       },
       kAtOnce, "not of the kind that is due");
 }
 
-TEST(Lanes, FluidThatDropsOneEndsAllRanks) {
+TEST(RankConnections, FluidThatDropsOneEndsAllRanks) {
   expect_of_dem(
-      "drops", [](LoneFluid& fluid) { fluid.lane.reset(); }, "has gone");
+      "drops", [](LoneFluid& fluid) { fluid.connection.reset(); }, "has gone");
 }
 
-TEST(Lanes, FluidThatAnswersOnOneOnlyAndGoes) {
+TEST(RankConnections, FluidThatAnswersOnOneOnlyAndGoes) {
   expect_of_dem(
       "half",
       [](LoneFluid& fluid) {
-        LoneFluid::answer(*fluid.lane, 1);
+        LoneFluid::answer(*fluid.connection, 1);
         fluid.main.close();
       },
       "has gone");
 }
 
-TEST(Lanes, AnswerToAnotherMeetingIsRefused) {
+TEST(RankConnections, AnswerToAnotherMeetingIsRefused) {
   expect_of_dem(
       "answer",
       [](LoneFluid& fluid) {
         LoneFluid::answer(fluid.main, 1);
-        LoneFluid::answer(*fluid.lane, 2);
+        LoneFluid::answer(*fluid.connection, 2);
       },
       "another question");
 }

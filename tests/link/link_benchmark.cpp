@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Time of one meeting over the socket link alone: the first ranks are the DEM side, the others a fluid that answers at
-// once.
+// Time of one coupling step over the socket link alone: the first ranks are the DEM side, the others a fluid that
+// answers at once.
 #include "link/socket/fluid_server.h"
 #include "link/socket/socket_peer.h"
 #include "link/socket/wire.h"
@@ -24,9 +24,9 @@ namespace {
 using namespace eccentra;
 using Rows = link::SocketPeer::Rows;
 
-constexpr int kMeetings = 200;
+constexpr int kCouplingSteps = 200;
 constexpr std::size_t kParticles = 30000;
-constexpr unsigned kAsked = fluid::kVelocity | fluid::kFraction | fluid::kPressureGradient;
+constexpr unsigned kAsked = link::kVelocity | link::kFraction | link::kPressureGradient;
 
 /// Answers with numbers that tell the particles apart.
 class PromptFluid : public link::FluidPeer {
@@ -38,7 +38,8 @@ class PromptFluid : public link::FluidPeer {
     terms.offered = dem.needed;
     return terms;
   }
-  int meet(const link::Meeting&, const link::ParticleArrays& particles, const fluid::FluidSamples& samples) override {
+  int meet(const link::CouplingStep&, const link::ParticleArrays& particles,
+           const link::FluidSamples& samples) override {
     for (std::size_t i = 0; i < particles.count; ++i)
       samples.fraction[i] = particles.position[i][0];
     return 0;
@@ -56,10 +57,11 @@ double cpu_seconds() {
          1e-6 * double(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
 }
 
-/// Wall-clock times of the meetings [s], sorted; empty if an answer was wrong.
-std::vector<double> times_of_meetings(link::FluidPeer& fluid, std::size_t count, std::size_t total, bool extents) {
+/// Wall-clock times of the coupling steps [s], sorted; empty if an answer was wrong.
+std::vector<double> times_of_coupling_steps(link::FluidPeer& fluid, std::size_t count, std::size_t total,
+                                            bool extents) {
   std::vector<double> position(3 * count), volume(count, 1e-7), vector(3 * count), fraction(count), extent(9 * count);
-  std::vector<link::Ticket> tickets(count);
+  std::vector<link::CellHint> cell_hints(count);
   for (std::size_t i = 0; i < count; ++i)
     position[3 * i] = double(i) / double(count);
   using Vectors = double(*)[3];
@@ -70,9 +72,9 @@ std::vector<double> times_of_meetings(link::FluidPeer& fluid, std::size_t count,
   particles.impulse = reinterpret_cast<Vectors>(vector.data());
   particles.drag_coefficient = volume.data();
   particles.extent = extents ? reinterpret_cast<const double(*)[link::kExtentDoubles]>(extent.data()) : nullptr;
-  particles.ticket = tickets.data();
+  particles.cell_hint = cell_hints.data();
   std::vector<double> velocity(3 * count), gradient(3 * count);
-  fluid::FluidSamples samples;
+  link::FluidSamples samples;
   samples.velocity = reinterpret_cast<Vectors>(velocity.data());
   samples.fraction = fraction.data();
   samples.pressure_gradient = reinterpret_cast<Vectors>(gradient.data());
@@ -84,13 +86,13 @@ std::vector<double> times_of_meetings(link::FluidPeer& fluid, std::size_t count,
   for (double& high : terms.domain.high)
     high = 1;
   fluid.agree(terms);
-  link::Meeting meeting;
-  meeting.needed = kAsked;
-  meeting.totals.particles = static_cast<std::int64_t>(total);
+  link::CouplingStep coupling_step;
+  coupling_step.needed = kAsked;
+  coupling_step.totals.particles = static_cast<std::int64_t>(total);
   std::vector<double> seconds;
-  for (int n = 0; n < kMeetings; ++n) {
+  for (int n = 0; n < kCouplingSteps; ++n) {
     const double begun = MPI_Wtime();
-    fluid.meet(meeting, particles, samples);
+    fluid.meet(coupling_step, particles, samples);
     seconds.push_back(MPI_Wtime() - begun);
   }
   for (std::size_t i = 0; i < count; ++i)
@@ -106,20 +108,20 @@ struct Words {
 
 /// Nothing where they make no sense.
 std::optional<Words> read(int argc, char** argv) {
-  Words words;
+  Words arguments;
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string word = argv[i];
     if (word != "--particles" && word != "--dem-ranks")
       return {};
-    (word == "--particles" ? words.particles : words.dem_ranks) = std::strtol(argv[i + 1], nullptr, 10);
+    (word == "--particles" ? arguments.particles : arguments.dem_ranks) = std::strtol(argv[i + 1], nullptr, 10);
   }
-  if (argc % 2 == 0 || words.particles < 1 || words.dem_ranks < 1)
+  if (argc % 2 == 0 || arguments.particles < 1 || arguments.dem_ranks < 1)
     return {};
-  return words;
+  return arguments;
 }
 
 /// One side's work; on rank 0 of DEM the sorted times.
-std::vector<double> meet(bool dem, MPI_Comm side, const char* path, const Words& words, bool extents, Rows way) {
+std::vector<double> meet(bool dem, MPI_Comm side, const char* path, const Words& arguments, bool extents, Rows way) {
   if (!dem) {
     PromptFluid fluid;
     link::FluidServer(side, std::string(path), {}, 1).serve(fluid);
@@ -127,22 +129,24 @@ std::vector<double> meet(bool dem, MPI_Comm side, const char* path, const Words&
   }
   int rank = 0;
   MPI_Comm_rank(side, &rank);
-  const long begin = words.particles * rank / words.dem_ranks, end = words.particles * (rank + 1) / words.dem_ranks;
+  const long begin = arguments.particles * rank / arguments.dem_ranks,
+             end = arguments.particles * (rank + 1) / arguments.dem_ranks;
   link::SocketPeer fluid(side, std::string(path), {}, way);
-  return times_of_meetings(fluid, end - begin, words.particles, extents);
+  return times_of_coupling_steps(fluid, end - begin, arguments.particles, extents);
 }
 
-/// Prints what a meeting takes. Returns 1 on rank 0 if an answer was wrong.
-int measure(bool dem, MPI_Comm side, const Words& words, bool extents, Rows way) {
+/// Prints what a coupling step takes. Returns 1 on rank 0 if an answer was wrong.
+int measure(bool dem, MPI_Comm side, const Words& arguments, bool extents, Rows way) {
   int rank = 0, size = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &size);
-  const bool lanes = words.dem_ranks > 1 && way == Rows::on_lanes;
+  const bool rank_connections = arguments.dem_ranks > 1 && way == Rows::on_rank_connections;
   char path[64] = {};
-  std::snprintf(path, sizeof path, "/tmp/eccentra-link-benchmark-%d-%d%d", int(getpid()), int(extents), int(lanes));
+  std::snprintf(path, sizeof path, "/tmp/eccentra-link-benchmark-%d-%d%d", int(getpid()), int(extents),
+                int(rank_connections));
   MPI_Bcast(path, sizeof path, MPI_CHAR, 0, MPI_COMM_WORLD);
   const double begun = cpu_seconds();
-  const std::vector<double> seconds = meet(dem, side, path, words, extents, way);
+  const std::vector<double> seconds = meet(dem, side, path, arguments, extents, way);
   const double mine = cpu_seconds() - begun;
   double all = 0;
   MPI_Reduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, 0, MPI_COMM_WORLD);
@@ -150,16 +154,16 @@ int measure(bool dem, MPI_Comm side, const Words& words, bool extents, Rows way)
     return 0;
   if (seconds.empty())
     return 1;
-  const double through_root = double(words.particles) / (lanes ? double(words.dem_ranks) : 1.0);
+  const double through_root = double(arguments.particles) / (rank_connections ? double(arguments.dem_ranks) : 1.0);
   const std::size_t there = link::wire::particle_row_bytes(extents), back = link::wire::samples_row_bytes(kAsked);
   std::printf(
       "%ld particles%s, %ld + %ld ranks, %s: median %.3f ms, fastest %.3f ms, slowest %.3f ms, %.0f ns a "
       "particle; processor time of all ranks %.3f ms; %zu + %zu bytes a particle, %.1f kB a meeting from and to "
       "rank 0 of DEM\n",
-      words.particles, extents ? " with extents" : "", words.dem_ranks, size - words.dem_ranks,
-      lanes ? "on lanes" : "over rank 0", 1e3 * seconds[seconds.size() / 2], 1e3 * seconds.front(),
-      1e3 * seconds.back(), 1e9 * seconds[seconds.size() / 2] / double(words.particles), 1e3 * all / kMeetings, there,
-      back, 1e-3 * through_root * double(there + back));
+      arguments.particles, extents ? " with extents" : "", arguments.dem_ranks, size - arguments.dem_ranks,
+      rank_connections ? "on lanes" : "over rank 0", 1e3 * seconds[seconds.size() / 2], 1e3 * seconds.front(),
+      1e3 * seconds.back(), 1e9 * seconds[seconds.size() / 2] / double(arguments.particles), 1e3 * all / kCouplingSteps,
+      there, back, 1e-3 * through_root * double(there + back));
   return 0;
 }
 
@@ -170,19 +174,19 @@ int main(int argc, char** argv) {
   int rank = 0, size = 0, failed = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &size);
-  const std::optional<Words> words = read(argc, argv);
-  if (!words || words->dem_ranks >= size) {
+  const std::optional<Words> arguments = read(argc, argv);
+  if (!arguments || arguments->dem_ranks >= size) {
     std::fprintf(
         stderr, "usage: mpirun -np N link_benchmark [--particles COUNT] [--dem-ranks D]   (D < N; default 30000, 1)\n");
     MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
   }
-  const bool dem = rank < words->dem_ranks;
+  const bool dem = rank < arguments->dem_ranks;
   MPI_Comm side = MPI_COMM_NULL;
   MPI_Comm_split(MPI_COMM_WORLD, dem, rank, &side);
   for (const bool extents : {false, true})
-    for (const Rows way : {Rows::on_lanes, Rows::over_root})
-      if (words->dem_ranks > 1 || way == Rows::on_lanes)
-        failed += measure(dem, side, *words, extents, way);
+    for (const Rows way : {Rows::on_rank_connections, Rows::over_root})
+      if (arguments->dem_ranks > 1 || way == Rows::on_rank_connections)
+        failed += measure(dem, side, *arguments, extents, way);
   MPI_Comm_free(&side);
   MPI_Finalize();
   return failed;

@@ -107,10 +107,10 @@ TEST(Overlap, MomentumStaysExact) {
   }
 }
 
-// All of contacts, walls and fluid; the state is that of the last meeting, the flow's next step still to come.
+// All of contacts, walls and fluid; the state is that of the last coupling step, the flow's next step still to come.
 TEST(Overlap, CheckpointGoesOnWithTheSameDigits) {
-  constexpr int kSteps = 24 * kStepsPerMeeting;
-  constexpr int kMiddle = 16 * kStepsPerMeeting;
+  constexpr int kSteps = 24 * kStepsPerCouplingStep;
+  constexpr int kMiddle = 16 * kStepsPerCouplingStep;
   const std::string address = socket_address("goes_on");
   BoxCase box = stirred_box("socket " + address + " every 40 checkpoint 8 wait 60 overlap yes", kSteps, true);
   box.coupling += "link socket; address \"" + address + "\"; wait 60;";
@@ -128,7 +128,7 @@ TEST(Overlap, CheckpointGoesOnWithTheSameDigits) {
       << particles.text();
   EXPECT_EQ(contents(dem + "/end.bodies"), bodies);
 
-  // The other way of meeting is another run.
+  // The other way of coupling step is another run.
   replace_in(dem + "/in.dem", "overlap yes", "overlap no");
   BackgroundJob other(dem, command("eccentra-dem", {"-in", "in.dem", "-log", "none", "-resume"}, 1), "log.other");
   BackgroundJob its_fluid(straight.folder, command("annulusFoam", {"-resume"}, 1), "log.other");

@@ -48,12 +48,12 @@ std::string address(const std::string& name) {
   return "ipc://" + (fs::temp_directory_path() / ("eccentra-" + std::to_string(getpid()) + "-" + name)).string();
 }
 
-std::vector<std::string> command(const std::string& program, const std::vector<std::string>& words, int ranks) {
+std::vector<std::string> command(const std::string& program, const std::vector<std::string>& arguments, int ranks) {
   std::vector<std::string> all;
   if (ranks > 1)
     all = {"mpirun", "--oversubscribe", "--bind-to", "none", "-np", std::to_string(ranks)};
   all.push_back(std::string(std::getenv("ECCENTRA_BIN")) + '/' + program);
-  all.insert(all.end(), words.begin(), words.end());
+  all.insert(all.end(), arguments.begin(), arguments.end());
   return all;
 }
 

@@ -21,10 +21,10 @@ struct Sides {
     dem.time_step = 7.8125e-5;
     dem.interval = 64;
     dem.particles = 1000;
-    dem.needed = eccentra::fluid::kVelocity;
+    dem.needed = eccentra::link::kVelocity;
     dem.fluid_density = 1000;
     fluid.time_step = 5e-3;
-    fluid.offered = eccentra::fluid::kVelocity | eccentra::fluid::kFraction;
+    fluid.offered = eccentra::link::kVelocity | eccentra::link::kFraction;
     fluid.fluid_density = 1000;
     for (int k = 0; k < 3; ++k) {
       dem.domain.low[k] = -0.065;
@@ -105,7 +105,7 @@ TEST(Terms, MillimetresForMetresAreRefused) {
 
 TEST(Terms, QuantityThatNobodyOffersIsRefused) {
   Sides sides;
-  sides.dem.needed |= eccentra::fluid::kVorticity;
+  sides.dem.needed |= eccentra::link::kVorticity;
   sides.expectRefusal("does not offer");
 }
 

@@ -14,8 +14,8 @@ namespace {
 using namespace eccentra::test;
 namespace fs = std::filesystem;
 
-int shell(const std::string& words) {
-  return std::system((words + " >/dev/null 2>&1").c_str());
+int shell(const std::string& arguments) {
+  return std::system((arguments + " >/dev/null 2>&1").c_str());
 }
 
 /// Two namespaces, 10.213.7.1 and 10.213.7.2, joined by a pair of virtual devices.
@@ -39,13 +39,13 @@ class TwoHosts {
   }
   bool there() const { return there_; }
   void cut() const { EXPECT_EQ(shell("ip -n " + host(1) + " link set " + device(1) + " down"), 0); }
-  /// The words that run a program on host k; on this one if there are no namespaces.
-  std::vector<std::string> on(int k, std::vector<std::string> words) const {
+  /// The arguments that run a program on host k; on this one if there are no namespaces.
+  std::vector<std::string> on(int k, std::vector<std::string> arguments) const {
     if (there_) {
       const std::vector<std::string> enter = {"ip", "netns", "exec", host(k)};
-      words.insert(words.begin(), enter.begin(), enter.end());
+      arguments.insert(arguments.begin(), enter.begin(), enter.end());
     }
-    return words;
+    return arguments;
   }
 
  private:
@@ -70,7 +70,7 @@ TEST(TwoHosts, MeetOverTcpWithKeysAndNoticeACutCable) {
   replace_in(folder + "/constant/couplingProperties", "wait 0.01;", "");
   eccentra::link::make_keys(folder + "/keys");
   BackgroundJob fluid(folder, hosts.on(0, command("annulusFoam", {}, 1)), "log.fluid");
-  // Of two ranks: the second one has a lane of its own, with a port that nobody has named.
+  // Of two ranks: the second one has a rank connection of its own, with a port that nobody has named.
   BackgroundJob particles(folder, hosts.on(1, command("eccentra-dem", {"-in", "in.dem", "-log", "none"}, 2)),
                           "log.dem");
   EXPECT_TRUE(fluid.says("t 0.1 s", kStart)) << fluid.text() << particles.text();

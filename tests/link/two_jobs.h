@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What tests of two jobs share: their words, where they meet, how long a fault may take to be noticed.
+// What tests of two jobs share: their arguments, where they meet, how long a fault may take to be noticed.
 #pragma once
 
 #include "link/background_job.h"
@@ -27,12 +27,13 @@ inline std::string socket_address(const std::string& name) {
          (std::filesystem::temp_directory_path() / ("eccentra-" + std::to_string(getpid()) + "-" + name)).string();
 }
 
-inline std::vector<std::string> command(const std::string& program, const std::vector<std::string>& words, int ranks) {
+inline std::vector<std::string> command(const std::string& program, const std::vector<std::string>& arguments,
+                                        int ranks) {
   std::vector<std::string> all;
   if (ranks > 1)
     all = {"mpirun", "--oversubscribe", "--bind-to", "none", "-np", std::to_string(ranks)};
   all.push_back(std::string(std::getenv("ECCENTRA_BIN")) + '/' + program);
-  all.insert(all.end(), words.begin(), words.end());
+  all.insert(all.end(), arguments.begin(), arguments.end());
   return all;
 }
 

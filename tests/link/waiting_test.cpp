@@ -23,7 +23,7 @@ using namespace eccentra;
 
 constexpr int kDemRanks = 2;
 constexpr auto kPause = std::chrono::milliseconds(700);
-constexpr int kMeetings = 3;
+constexpr int kCouplingSteps = 3;
 /// Part of the wait that may be spent awake.
 constexpr double kAwake = 0.1;
 
@@ -43,7 +43,7 @@ class SlowFluid : public link::FluidPeer {
     terms.domain = dem.domain;
     return terms;
   }
-  int meet(const link::Meeting&, const link::ParticleArrays&, const fluid::FluidSamples&) override {
+  int meet(const link::CouplingStep&, const link::ParticleArrays&, const link::FluidSamples&) override {
     std::this_thread::sleep_for(kPause);
     return 0;
   }
@@ -60,7 +60,7 @@ void run_particles(MPI_Comm ranks, const std::string& address) {
   for (double& high : terms.domain.high)
     high = 1;
   fluid.agree(terms);
-  for (int n = 0; n < kMeetings; ++n) {
+  for (int n = 0; n < kCouplingSteps; ++n) {
     std::this_thread::sleep_for(kPause);
     fluid.meet({}, {}, {});
   }
@@ -87,7 +87,7 @@ TEST(Waiting, CostsNoProcessorTime) {
   }
   const double wall = MPI_Wtime() - begun;
   EXPECT_LT(cpu_seconds() - cpu, kAwake * wall) << "of " << wall << " s, rank " << rank;
-  EXPECT_GT(wall, kMeetings * std::chrono::duration<double>(kPause).count());
+  EXPECT_GT(wall, kCouplingSteps * std::chrono::duration<double>(kPause).count());
   MPI_Comm_free(&side);
 }
 

@@ -11,15 +11,15 @@
 
 namespace eccentra::test {
 
-constexpr unsigned kAsked = fluid::kVelocity | fluid::kFraction | fluid::kPressureGradient;
+constexpr unsigned kAsked = link::kVelocity | link::kFraction | link::kPressureGradient;
 constexpr std::size_t kRows = 3;
-constexpr std::int64_t kMeeting = 12;
-constexpr std::uint32_t kLane = 5;
+constexpr std::int64_t kCouplingStep = 12;
+constexpr std::uint32_t kRankConnection = 5;
 
 /// Particles with values that tell rows and columns apart.
 struct SomeParticles {
   double position[kRows][3], volume[kRows], impulse[kRows][3], drag[kRows], extent[kRows][link::kExtentDoubles];
-  link::Ticket ticket[kRows];
+  link::CellHint cell_hint[kRows];
 
   SomeParticles() {
     for (std::size_t i = 0; i < kRows; ++i) {
@@ -31,32 +31,32 @@ struct SomeParticles {
         extent[i][k] = 1000.0 * i + k;
       volume[i] = 1.5 + i;
       drag[i] = 0.25 * i;
-      ticket[i] = {static_cast<std::int32_t>(i) - 1, static_cast<std::int32_t>(7 * i)};
+      cell_hint[i] = {static_cast<std::int32_t>(i) - 1, static_cast<std::int32_t>(7 * i)};
     }
   }
-  link::ParticleArrays arrays() { return {kRows, position, volume, impulse, drag, extent, ticket}; }
+  link::ParticleArrays arrays() { return {kRows, position, volume, impulse, drag, extent, cell_hint}; }
 };
 
-inline link::Meeting some_meeting() {
-  link::Meeting meeting;
-  meeting.needed = kAsked;
-  meeting.elapsed = 2e-3;
-  meeting.dem_seconds = 0.5;
-  meeting.steps_done = 40;
-  meeting.steps_total = 80;
-  meeting.number = kMeeting;
-  meeting.totals.particles = kRows;
-  meeting.totals.volume_velocity[2] = 3.25;
-  meeting.totals.fastest = 0.75;
-  meeting.load = {4, 2, 0.25, 0.5};
-  return meeting;
+inline link::CouplingStep some_coupling_step() {
+  link::CouplingStep coupling_step;
+  coupling_step.needed = kAsked;
+  coupling_step.elapsed = 2e-3;
+  coupling_step.dem_seconds = 0.5;
+  coupling_step.steps_done = 40;
+  coupling_step.steps_total = 80;
+  coupling_step.number = kCouplingStep;
+  coupling_step.totals.particles = kRows;
+  coupling_step.totals.volume_velocity[2] = 3.25;
+  coupling_step.totals.fastest = 0.75;
+  coupling_step.load = {4, 2, 0.25, 0.5};
+  return coupling_step;
 }
 
-inline link::wire::Bytes meeting_message(bool extents) {
+inline link::wire::Bytes coupling_step_message(bool extents) {
   using namespace link::wire;
-  constexpr std::size_t head = kHeaderBytes + kMeetingBytes;
+  constexpr std::size_t head = kHeaderBytes + kCouplingStepBytes;
   Bytes message(head + kRows * particle_row_bytes(extents));
-  write_meeting_head(message.data(), some_meeting(), kRows, extents);
+  write_coupling_step_head(message.data(), some_coupling_step(), kRows, extents);
   SomeParticles particles;
   pack_particles(particles.arrays(), extents, message.data() + head);
   return message;
@@ -65,11 +65,11 @@ inline link::wire::Bytes meeting_message(bool extents) {
 inline link::wire::Bytes samples_message() {
   using namespace link::wire;
   constexpr std::size_t head = kHeaderBytes + kSamplesBytes;
-  const Bytes meeting = meeting_message(true);
-  link::Meeting unused;
-  Guests guests;
-  guests.load({decode_meeting({meeting.data(), meeting.size()}, true, unused)}, true, kAsked);
-  const fluid::FluidSamples samples = guests.samples();
+  const Bytes coupling_step = coupling_step_message(true);
+  link::CouplingStep unused;
+  ParticlePoints particles_here;
+  particles_here.load({decode_coupling_step({coupling_step.data(), coupling_step.size()}, true, unused)}, true, kAsked);
+  const link::FluidSamples samples = particles_here.samples();
   for (std::size_t i = 0; i < kRows; ++i) {
     for (int k = 0; k < 3; ++k) {
       samples.velocity[i][k] = 10.0 * i + k;
@@ -78,8 +78,8 @@ inline link::wire::Bytes samples_message() {
     samples.fraction[i] = 0.5 + 0.1 * i;
   }
   Bytes message(head + kRows * samples_row_bytes(kAsked));
-  write_samples_head(message.data(), kMeeting, kRows, kAsked);
-  guests.pack_samples(0, kRows, message.data() + head);
+  write_samples_head(message.data(), kCouplingStep, kRows, kAsked);
+  particles_here.pack_samples(0, kRows, message.data() + head);
   return message;
 }
 
@@ -87,7 +87,7 @@ inline link::wire::Bytes rows_message(bool extents) {
   using namespace link::wire;
   constexpr std::size_t head = kHeaderBytes + kRowsBytes;
   Bytes message(head + kRows * particle_row_bytes(extents));
-  write_rows_head(message.data(), {kLane, kMeeting}, kRows, extents);
+  write_rows_head(message.data(), {kRankConnection, kCouplingStep}, kRows, extents);
   SomeParticles particles;
   pack_particles(particles.arrays(), extents, message.data() + head);
   return message;
@@ -99,11 +99,11 @@ template <class Decode> void use_rows(Decode&& decode) {
   for (const bool extents : {false, true}) {
     try {
       const Rows rows = decode(extents);
-      check_tickets(rows, extents, {8, 20});
-      Guests guests;
-      guests.load({rows, rows}, extents, kAsked);
+      check_cell_hints(rows, extents, {8, 20});
+      ParticlePoints particles_here;
+      particles_here.load({rows, rows}, extents, kAsked);
       Bytes answer(rows.count * samples_row_bytes(kAsked));
-      guests.pack_samples(rows.count, rows.count, answer.data());
+      particles_here.pack_samples(rows.count, rows.count, answer.data());
       return;
     } catch (const link::Refusal&) {
       if (extents)
@@ -123,13 +123,13 @@ inline std::vector<link::wire::Bytes> valid_messages() {
   return {encode(dem),
           encode(fluid),
           encode_refusal("no"),
-          meeting_message(false),
-          meeting_message(true),
+          coupling_step_message(false),
+          coupling_step_message(true),
           samples_message(),
           rows_message(false),
           rows_message(true),
-          encode_lanes({1, 2, kMostLanes}),
-          encode_no_lanes("several hosts"),
+          encode_rank_connections({1, 2, kMaxRankConnections}),
+          encode_no_rank_connections("several hosts"),
           encode_bare(Kind::run_ended),
           encode_bare(Kind::farewell),
           encode_bare(Kind::advance),
@@ -162,30 +162,30 @@ inline bool accepted(const std::byte* data, std::size_t size) {
     case Kind::checkpointed:
       (void)decode_checkpointed(message);
       break;
-    case Kind::meeting:
+    case Kind::coupling_step:
       use_rows([&](bool extents) {
-        link::Meeting meeting;
-        return decode_meeting(message, extents, meeting);
+        link::CouplingStep coupling_step;
+        return decode_coupling_step(message, extents, coupling_step);
       });
       break;
     case Kind::rows:
-      use_rows([&](bool extents) { return decode_rows(message, extents, {kLane, kMeeting}); });
+      use_rows([&](bool extents) { return decode_rows(message, extents, {kRankConnection, kCouplingStep}); });
       break;
-    case Kind::lanes:
-      (void)decode_lanes(message, 3);
+    case Kind::rank_connections:
+      (void)decode_rank_connections(message, 3);
       break;
-    case Kind::no_lanes:
-      (void)decode_no_lanes(message);
+    case Kind::no_rank_connections:
+      (void)decode_no_rank_connections(message);
       break;
     case Kind::samples: {
-      const Rows rows = decode_samples(message, kMeeting, kRows, kAsked);
+      const Rows rows = decode_samples(message, kCouplingStep, kRows, kAsked);
       double velocity[kRows][3], fraction[kRows], gradient[kRows][3];
-      link::Ticket tickets[kRows];
-      fluid::FluidSamples samples;
+      link::CellHint cell_hints[kRows];
+      link::FluidSamples samples;
       samples.velocity = velocity;
       samples.fraction = fraction;
       samples.pressure_gradient = gradient;
-      unpack_samples(rows, kAsked, samples, tickets);
+      unpack_samples(rows, kAsked, samples, cell_hints);
       break;
     }
     default:

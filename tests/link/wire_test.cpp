@@ -56,14 +56,14 @@ TEST(Wire, TermsArriveAsSent) {
   dem.domain.high[0] = 0.25;
   dem.domain.periodic[2] = true;
   dem.resumes = {640, 0x8000000000000001};
-  dem.lanes = 7;
+  dem.rank_connections = 7;
   const DemTerms got = wire::decode_dem_terms(view(wire::encode(dem)));
   EXPECT_EQ(got.time_step, dem.time_step);
   EXPECT_EQ(got.interval, 64);
   EXPECT_EQ(got.resumes.step, 640);
   EXPECT_EQ(got.resumes.id, 0x8000000000000001u);
   EXPECT_EQ(got.particles, 1212);
-  EXPECT_EQ(got.lanes, 7u);
+  EXPECT_EQ(got.rank_connections, 7u);
   EXPECT_EQ(got.needed, kAsked);
   EXPECT_TRUE(got.extents);
   EXPECT_TRUE(got.overlap);
@@ -101,22 +101,22 @@ TEST(Wire, TermsArriveAsSent) {
 
 TEST(Wire, MeetingArrivesAsSent) {
   for (const bool extents : {false, true}) {
-    const Bytes message = meeting_message(extents);
-    Meeting meeting;
-    const wire::Rows rows = wire::decode_meeting(view(message), extents, meeting);
-    EXPECT_EQ(meeting.needed, kAsked);
-    EXPECT_EQ(meeting.elapsed, 2e-3);
-    EXPECT_EQ(meeting.steps_total, 80);
-    EXPECT_EQ(meeting.totals.volume_velocity[2], 3.25);
-    EXPECT_EQ(meeting.totals.fastest, 0.75);
-    EXPECT_EQ(meeting.number, kMeeting);
-    EXPECT_EQ(meeting.load.ranks, 4);
-    EXPECT_EQ(meeting.load.most_particles, 2);
-    EXPECT_EQ(meeting.load.mean_seconds, 0.25);
-    EXPECT_EQ(meeting.load.most_seconds, 0.5);
-    wire::Guests guests;
-    guests.load({rows}, extents, kAsked);
-    const ParticleArrays got = guests.particles();
+    const Bytes message = coupling_step_message(extents);
+    CouplingStep coupling_step;
+    const wire::Rows rows = wire::decode_coupling_step(view(message), extents, coupling_step);
+    EXPECT_EQ(coupling_step.needed, kAsked);
+    EXPECT_EQ(coupling_step.elapsed, 2e-3);
+    EXPECT_EQ(coupling_step.steps_total, 80);
+    EXPECT_EQ(coupling_step.totals.volume_velocity[2], 3.25);
+    EXPECT_EQ(coupling_step.totals.fastest, 0.75);
+    EXPECT_EQ(coupling_step.number, kCouplingStep);
+    EXPECT_EQ(coupling_step.load.ranks, 4);
+    EXPECT_EQ(coupling_step.load.max_particles, 2);
+    EXPECT_EQ(coupling_step.load.mean_seconds, 0.25);
+    EXPECT_EQ(coupling_step.load.max_seconds, 0.5);
+    wire::ParticlePoints particles_here;
+    particles_here.load({rows}, extents, kAsked);
+    const ParticleArrays got = particles_here.particles();
     SomeParticles sent;
     ASSERT_EQ(got.count, kRows);
     EXPECT_EQ(got.extent != nullptr, extents);
@@ -129,9 +129,9 @@ TEST(Wire, MeetingArrivesAsSent) {
         EXPECT_EQ(got.extent[i][k], sent.extent[i][k]);
       EXPECT_EQ(got.volume[i], sent.volume[i]);
       EXPECT_EQ(got.drag_coefficient[i], sent.drag[i]);
-      EXPECT_EQ(got.ticket[i].rank, sent.ticket[i].rank);
-      if (sent.ticket[i].rank >= 0) {
-        EXPECT_EQ(got.ticket[i].cell, sent.ticket[i].cell);
+      EXPECT_EQ(got.cell_hint[i].rank, sent.cell_hint[i].rank);
+      if (sent.cell_hint[i].rank >= 0) {
+        EXPECT_EQ(got.cell_hint[i].cell, sent.cell_hint[i].cell);
       }
     }
   }
@@ -140,30 +140,30 @@ TEST(Wire, MeetingArrivesAsSent) {
 TEST(Wire, SamplesArriveAsSentAndOnlyWhatIsAskedForTravels) {
   const Bytes message = samples_message();
   EXPECT_EQ(message.size(), wire::kHeaderBytes + wire::kSamplesBytes + kRows * (7 * 8 + 8));
-  const wire::Rows rows = wire::decode_samples(view(message), kMeeting, kRows, kAsked);
+  const wire::Rows rows = wire::decode_samples(view(message), kCouplingStep, kRows, kAsked);
   double velocity[kRows][3], fraction[kRows];
-  Ticket tickets[kRows];
-  eccentra::fluid::FluidSamples samples;
+  CellHint cell_hints[kRows];
+  eccentra::link::FluidSamples samples;
   samples.velocity = velocity;
   samples.fraction = fraction; // the gradient is not wanted after all
-  wire::unpack_samples(rows, kAsked, samples, tickets);
+  wire::unpack_samples(rows, kAsked, samples, cell_hints);
   for (std::size_t i = 0; i < kRows; ++i) {
     EXPECT_EQ(velocity[i][2], 10.0 * i + 2);
     EXPECT_EQ(fraction[i], 0.5 + 0.1 * i);
-    EXPECT_EQ(tickets[i].rank, static_cast<int>(i) - 1);
+    EXPECT_EQ(cell_hints[i].rank, static_cast<int>(i) - 1);
   }
 }
 
 TEST(Wire, ArraysThatAreAskedForExistWithoutParticles) {
-  wire::Guests guests;
-  guests.load({}, true, kAsked);
-  EXPECT_NE(guests.samples().velocity, nullptr);
-  EXPECT_NE(guests.particles().extent, nullptr);
-  EXPECT_EQ(guests.samples().vorticity, nullptr);
+  wire::ParticlePoints particles_here;
+  particles_here.load({}, true, kAsked);
+  EXPECT_NE(particles_here.samples().velocity, nullptr);
+  EXPECT_NE(particles_here.particles().extent, nullptr);
+  EXPECT_EQ(particles_here.samples().vorticity, nullptr);
 }
 
 TEST(Wire, HeadersThatDoNotFitAreRefused) {
-  const Bytes message = meeting_message(false);
+  const Bytes message = coupling_step_message(false);
   const auto read = [](const Bytes& bytes) { return [&bytes] { wire::kind_of(view(bytes)); }; };
   expect_refusal(read(Bytes()), "shorter than a header");
   expect_refusal(read(with(message, 0, 'X')), "does not begin with ECCENTRA");
@@ -192,7 +192,7 @@ TEST(Wire, EveryTruncationIsRefused) {
       // And with a header that states the shorter length; a text may have any.
       const Bytes honest = with(cut, kLengthAt, std::uint64_t(size - wire::kHeaderBytes));
       const wire::Kind kind = wire::kind_of(view(message));
-      if (kind != wire::Kind::refusal && kind != wire::Kind::checkpointed && kind != wire::Kind::no_lanes) {
+      if (kind != wire::Kind::refusal && kind != wire::Kind::checkpointed && kind != wire::Kind::no_rank_connections) {
         EXPECT_FALSE(accepted(honest.data(), honest.size()));
       }
     }
@@ -204,70 +204,85 @@ TEST(Wire, CheckpointsAndSignalsArriveAsSent) {
   EXPECT_EQ(wire::decode_checkpointed(view(wire::encode_checkpointed("/a\nb"))), "/a?b");
   expect_refusal([&] { wire::decode_checkpoint(view(wire::encode(CheckpointMark{-1, 7}))); }, "before the beginning");
   Bytes samples = samples_message();
-  wire::write_samples_head(samples.data(), kMeeting, kRows, kAsked, 15);
-  EXPECT_EQ(wire::decode_samples(view(samples), kMeeting, kRows, kAsked).stop_signal, 15);
-  wire::write_samples_head(samples.data(), kMeeting, kRows, kAsked, 1000);
-  expect_refusal([&] { wire::decode_samples(view(samples), kMeeting, kRows, kAsked); }, "signal that does not exist");
+  wire::write_samples_head(samples.data(), kCouplingStep, kRows, kAsked, 15);
+  EXPECT_EQ(wire::decode_samples(view(samples), kCouplingStep, kRows, kAsked).stop_signal, 15);
+  wire::write_samples_head(samples.data(), kCouplingStep, kRows, kAsked, 1000);
+  expect_refusal([&] { wire::decode_samples(view(samples), kCouplingStep, kRows, kAsked); },
+                 "signal that does not exist");
 }
 
 TEST(Wire, LanesArriveAsSentAndOthersAreRefused) {
-  const std::vector<std::uint32_t> numbers = {3, wire::kMostLanes};
-  const Bytes message = wire::encode_lanes(numbers);
-  EXPECT_EQ(wire::decode_lanes(view(message), 2), numbers);
-  expect_refusal([&] { wire::decode_lanes(view(message), 3); }, "another number of lanes");
-  expect_refusal([&] { wire::decode_lanes(view(wire::encode_lanes({0})), 1); }, "cannot exist");
-  expect_refusal([&] { wire::decode_lanes(view(wire::encode_lanes({wire::kMostLanes + 1})), 1); }, "cannot exist");
-  EXPECT_EQ(wire::decode_no_lanes(view(wire::encode_no_lanes("several\nhosts"))), "several?hosts");
+  const std::vector<std::uint32_t> numbers = {3, wire::kMaxRankConnections};
+  const Bytes message = wire::encode_rank_connections(numbers);
+  EXPECT_EQ(wire::decode_rank_connections(view(message), 2), numbers);
+  expect_refusal([&] { wire::decode_rank_connections(view(message), 3); }, "another number of lanes");
+  expect_refusal([&] { wire::decode_rank_connections(view(wire::encode_rank_connections({0})), 1); }, "cannot exist");
+  expect_refusal(
+      [&] { wire::decode_rank_connections(view(wire::encode_rank_connections({wire::kMaxRankConnections + 1})), 1); },
+      "cannot exist");
+  EXPECT_EQ(wire::decode_no_rank_connections(view(wire::encode_no_rank_connections("several\nhosts"))),
+            "several?hosts");
   DemTerms dem;
-  dem.lanes = wire::kMostLanes + 1;
+  dem.rank_connections = wire::kMaxRankConnections + 1;
   expect_refusal([&] { wire::decode_dem_terms(view(wire::encode(dem))); }, "more lanes than there can be");
 }
 
 TEST(Wire, RowsOfAnotherRankOrMeetingAreRefused) {
   const Bytes message = rows_message(true);
-  EXPECT_EQ(wire::decode_rows(view(message), true, {kLane, kMeeting}).count, kRows);
-  expect_refusal([&] { wire::decode_rows(view(message), true, {kLane + 1, kMeeting}); }, "another rank");
-  expect_refusal([&] { wire::decode_rows(view(message), true, {kLane, kMeeting + 1}); }, "another meeting");
-  expect_refusal([&] { wire::decode_rows(view(message), false, {kLane, kMeeting}); }, "another length than the terms");
-  expect_refusal([&] { wire::decode_samples(view(samples_message()), kMeeting + 1, kRows, kAsked); },
+  EXPECT_EQ(wire::decode_rows(view(message), true, {kRankConnection, kCouplingStep}).count, kRows);
+  expect_refusal([&] { wire::decode_rows(view(message), true, {kRankConnection + 1, kCouplingStep}); }, "another rank");
+  expect_refusal(
+      [&] {
+        wire::decode_rows(view(message), true, {kRankConnection, kCouplingStep + 1});
+      },
+      "another meeting");
+  expect_refusal(
+      [&] {
+        wire::decode_rows(view(message), false, {kRankConnection, kCouplingStep});
+      },
+      "another length than the terms");
+  expect_refusal([&] { wire::decode_samples(view(samples_message()), kCouplingStep + 1, kRows, kAsked); },
                  "another question");
   for (const std::uint64_t count : {std::uint64_t(4), wire::kMostParticles, ~std::uint64_t(0)}) {
     const Bytes more = with(message, wire::kHeaderBytes, count);
-    EXPECT_THROW(wire::decode_rows(view(more), true, {kLane, kMeeting}), Refusal) << count;
+    EXPECT_THROW(wire::decode_rows(view(more), true, {kRankConnection, kCouplingStep}), Refusal) << count;
   }
 }
 
 TEST(Wire, CountsThatAreNotThereAreRefusedBeforeAnythingIsAllocated) {
-  Meeting meeting;
+  CouplingStep coupling_step;
   for (const std::uint64_t count : {std::uint64_t(4), wire::kMostParticles, wire::kMostParticles + 1, ~std::uint64_t(0),
                                     ~std::uint64_t(0) / wire::particle_row_bytes(false) + 1}) {
-    const Bytes message = with(meeting_message(false), wire::kHeaderBytes, count);
-    EXPECT_THROW(wire::decode_meeting(view(message), false, meeting), Refusal) << count;
+    const Bytes message = with(coupling_step_message(false), wire::kHeaderBytes, count);
+    EXPECT_THROW(wire::decode_coupling_step(view(message), false, coupling_step), Refusal) << count;
   }
   const Bytes more = with(samples_message(), wire::kHeaderBytes, std::uint64_t(kRows + 1));
-  expect_refusal([&] { wire::decode_samples(view(more), kMeeting, kRows, kAsked); }, "another question");
+  expect_refusal([&] { wire::decode_samples(view(more), kCouplingStep, kRows, kAsked); }, "another question");
 }
 
 TEST(Wire, NumbersThatAreNoneAreRefused) {
-  constexpr std::size_t rows = wire::kHeaderBytes + wire::kMeetingBytes;
+  constexpr std::size_t rows = wire::kHeaderBytes + wire::kCouplingStepBytes;
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  Meeting meeting;
-  const Bytes position = with(meeting_message(false), rows, nan);
-  expect_refusal([&] { wire::decode_meeting(view(position), false, meeting); }, "particle row 0 is no number");
-  const Bytes volume = with(meeting_message(false), rows + 24, 0.0);
-  expect_refusal([&] { wire::decode_meeting(view(volume), false, meeting); }, "without volume");
+  CouplingStep coupling_step;
+  const Bytes position = with(coupling_step_message(false), rows, nan);
+  expect_refusal([&] { wire::decode_coupling_step(view(position), false, coupling_step); },
+                 "particle row 0 is no number");
+  const Bytes volume = with(coupling_step_message(false), rows + 24, 0.0);
+  expect_refusal([&] { wire::decode_coupling_step(view(volume), false, coupling_step); }, "without volume");
   const Bytes sample = with(samples_message(), wire::kHeaderBytes + wire::kSamplesBytes, nan);
-  expect_refusal([&] { wire::decode_samples(view(sample), kMeeting, kRows, kAsked); }, "samples row 0 is no number");
+  expect_refusal([&] { wire::decode_samples(view(sample), kCouplingStep, kRows, kAsked); },
+                 "samples row 0 is no number");
 }
 
-TEST(Wire, TicketsOfCellsThatDoNotExistAreRefused) {
-  Meeting meeting;
-  const Bytes message = meeting_message(false);
-  const wire::Rows rows = wire::decode_meeting(view(message), false, meeting); // tickets: none, (0, 7), (1, 14)
-  EXPECT_NO_THROW(wire::check_tickets(rows, false, {8, 15}));
-  EXPECT_THROW(wire::check_tickets(rows, false, {7, 15}), Refusal);
-  EXPECT_THROW(wire::check_tickets(rows, false, {8, 14}), Refusal);
-  EXPECT_THROW(wire::check_tickets(rows, false, {8}), Refusal);
+TEST(Wire, HintsOfCellsThatDoNotExistAreRefused) {
+  CouplingStep coupling_step;
+  const Bytes message = coupling_step_message(false);
+  const wire::Rows rows =
+      wire::decode_coupling_step(view(message), false, coupling_step); // cell hint: none, (0, 7), (1, 14)
+  EXPECT_NO_THROW(wire::check_cell_hints(rows, false, {8, 15}));
+  EXPECT_THROW(wire::check_cell_hints(rows, false, {7, 15}), Refusal);
+  EXPECT_THROW(wire::check_cell_hints(rows, false, {8, 14}), Refusal);
+  EXPECT_THROW(wire::check_cell_hints(rows, false, {8}), Refusal);
 }
 
 // Bytes changed at random, in lengths and counts above all: refused or harmless, never a crash.
@@ -294,10 +309,10 @@ TEST(Wire, RandomMutationsDoNoHarm) {
         message.resize(message.size() + below(64), std::byte(random()));
         break;
       default: { // a word of the header or of what follows it
-        const std::uint64_t words[] = {0, 1, 3, 7, 1u << 31, ~std::uint64_t(0), wire::kMostParticles, random()};
+        const std::uint64_t arguments[] = {0, 1, 3, 7, 1u << 31, ~std::uint64_t(0), wire::kMostParticles, random()};
         const std::size_t at = 4 * below(20);
         if (at + 8 <= message.size())
-          message = with(message, at, words[below(std::size(words))]);
+          message = with(message, at, arguments[below(std::size(arguments))]);
       }
       }
     }

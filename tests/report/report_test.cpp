@@ -51,9 +51,9 @@ fs::path make_case(const std::string& name) {
   return folder;
 }
 
-ProgramResult report(const std::vector<std::string>& words) {
+ProgramResult report(const std::vector<std::string>& arguments) {
   std::vector<std::string> all = {required_environment("ECCENTRA_BIN") + "/annulusReport"};
-  all.insert(all.end(), words.begin(), words.end());
+  all.insert(all.end(), arguments.begin(), arguments.end());
   return run_program(all, {".", {}, 60});
 }
 
@@ -89,10 +89,10 @@ TEST(Report, SaysWhatTheCaseHolds) {
   std::ifstream stream(folder / "report/summary.csv");
   std::map<std::string, std::string> values;
   for (std::string line; std::getline(stream, line);) {
-    std::istringstream words(line);
+    std::istringstream arguments(line);
     std::string name, quantity, unit, value;
-    std::getline(words, name, ','), std::getline(words, quantity, ','), std::getline(words, unit, ','),
-        std::getline(words, value, ',');
+    std::getline(arguments, name, ','), std::getline(arguments, quantity, ','), std::getline(arguments, unit, ','),
+        std::getline(arguments, value, ',');
     values[quantity] = value;
   }
   // The last half of the run: rows at 2 and 3 s.

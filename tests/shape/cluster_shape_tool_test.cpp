@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// clusterShape as a user runs it: words, files, JSON, pictures, exit codes.
+// clusterShape as a user runs it: arguments, files, JSON, pictures, exit codes.
 #include "stl_solids.h"
 
 #include <gtest/gtest.h>

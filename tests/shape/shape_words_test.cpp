@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shape words and .clump files: what they mean, the body frame, and the sentences that bad ones earn.
+// Shape arguments and .clump files: what they mean, the body frame, and the sentences that bad ones earn.
 #include "shape/clump_file.h"
 #include "shape/cluster_shape.h"
 #include "shape/union_geometry.h"
@@ -20,33 +20,33 @@ std::string write_file(const std::string& name, const std::string& text) {
   return name;
 }
 
-ClusterShape from_words(const std::vector<std::string>& words, double diameter = 0) {
+ClusterShape from_arguments(const std::vector<std::string>& arguments, double diameter = 0) {
   std::size_t used = 0;
-  ClusterShape shape = make_shape(words, 0, used, diameter);
-  EXPECT_EQ(used, words.size());
+  ClusterShape shape = make_shape(arguments, 0, used, diameter);
+  EXPECT_EQ(used, arguments.size());
   return shape;
 }
 
-std::string refusal(const std::vector<std::string>& words, double diameter = 1) {
+std::string refusal(const std::vector<std::string>& arguments, double diameter = 1) {
   try {
     std::size_t used = 0;
-    make_shape(words, 0, used, diameter);
+    make_shape(arguments, 0, used, diameter);
   } catch (const std::invalid_argument& e) {
     return e.what();
   }
   return "accepted";
 }
 
-void expect_words(const std::string& text, const std::vector<std::string>& parts) {
+void expect_sentence(const std::string& text, const std::vector<std::string>& parts) {
   for (const std::string& part : parts)
     EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is missing in: " << text;
 }
 
 TEST(ShapeWords, FilesKeepTheirSizeOrAreScaledOrSized) {
   const std::string name = write_file("pair.clump", "# two spheres\n\n0 0 0 1 # first\n\t1.5 0 0 1\n");
-  EXPECT_DOUBLE_EQ(from_words({"file", name}).smallest_radius(), 1);
-  EXPECT_DOUBLE_EQ(from_words({"file", name, "scale", "1e-3"}).smallest_radius(), 1e-3);
-  EXPECT_NEAR(from_words({"file", name}, 0.2).equivalent_radius(), 0.1, 1e-12);
+  EXPECT_DOUBLE_EQ(from_arguments({"file", name}).smallest_radius(), 1);
+  EXPECT_DOUBLE_EQ(from_arguments({"file", name, "scale", "1e-3"}).smallest_radius(), 1e-3);
+  EXPECT_NEAR(from_arguments({"file", name}, 0.2).equivalent_radius(), 0.1, 1e-12);
 }
 
 TEST(ShapeWords, StopsAtWordsThatAreNotItsOwn) {
@@ -80,7 +80,7 @@ TEST(ShapeWords, BodyFrameOfATurnedClusterIsPrincipal) {
 TEST(ShapeWords, NaturalAxesStayWhereInertiaLeavesAChoice) {
   // A cube-like cluster turned about an odd axis is isotropic: its given axes are as good as any.
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.4, Vector3d(3, 1, 2).normalized()).toRotationMatrix();
-  const ClusterShape cube = from_words({"cube", "8"}, 1);
+  const ClusterShape cube = from_arguments({"cube", "8"}, 1);
   std::vector<Sphere> turned = cube.spheres();
   for (Sphere& s : turned)
     s.centre = turn * s.centre;
@@ -89,7 +89,7 @@ TEST(ShapeWords, NaturalAxesStayWhereInertiaLeavesAChoice) {
     EXPECT_LT((again.spheres()[i].centre - turned[i].centre).norm(), 1e-9);
   EXPECT_EQ(again.inertia_per_mass().x(), again.inertia_per_mass().z());
   // A disk with its axis along x keeps it there.
-  std::vector<Sphere> disk = from_words({"disk", "7"}, 1).spheres();
+  std::vector<Sphere> disk = from_arguments({"disk", "7"}, 1).spheres();
   for (Sphere& s : disk)
     s.centre = Vector3d(s.centre.z(), s.centre.x(), s.centre.y());
   const ClusterShape upright("disk", disk, measure_union(disk).properties);
@@ -98,7 +98,7 @@ TEST(ShapeWords, NaturalAxesStayWhereInertiaLeavesAChoice) {
 }
 
 TEST(ShapeWords, TurnedDiskFindsItsAxis) {
-  std::vector<Sphere> disk = from_words({"disk", "19"}, 1).spheres();
+  std::vector<Sphere> disk = from_arguments({"disk", "19"}, 1).spheres();
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.5, Vector3d(1, 1, 0).normalized()).toRotationMatrix();
   for (Sphere& s : disk)
     s.centre = turn * s.centre;
@@ -109,12 +109,12 @@ TEST(ShapeWords, TurnedDiskFindsItsAxis) {
 }
 
 TEST(ShapeWords, WrittenFilesReadBackTheSame) {
-  const ClusterShape shape = from_words({"disk", "48"}, 6.35e-3);
+  const ClusterShape shape = from_arguments({"disk", "48"}, 6.35e-3);
   {
     std::ofstream out("d48.clump");
     write_clump(out, shape);
   }
-  const ClusterShape back = from_words({"file", "d48.clump"});
+  const ClusterShape back = from_arguments({"file", "d48.clump"});
   ASSERT_EQ(back.spheres().size(), shape.spheres().size());
   for (std::size_t i = 0; i < back.spheres().size(); ++i) {
     EXPECT_LT((back.spheres()[i].centre - shape.spheres()[i].centre).norm(), 1e-12 * shape.bounding_radius());
@@ -124,37 +124,37 @@ TEST(ShapeWords, WrittenFilesReadBackTheSame) {
 }
 
 TEST(ShapeWords, BadWordsEarnASentence) {
-  expect_words(refusal({"cone", "3"}), {"cone", "sphere", "cube", "disk", "file"});
-  expect_words(refusal({"cube", "9"}), {"cube 9", "27"});
-  expect_words(refusal({"cube", "1e9"}), {"1e9", "whole number"});
-  expect_words(refusal({"cube", "1000000000000"}), {"1000000000000"});
-  expect_words(refusal({"disk", "8"}), {"disk 8", "19"});
-  expect_words(refusal({"sphere", "-1"}), {"-1"});
-  expect_words(refusal({"sphere", "2"}), {"sphere 2", "6"});
-  expect_words(refusal({"cube"}), {"number of spheres"});
-  expect_words(refusal({}), {"missing"});
-  expect_words(refusal({"cube", "8"}, 0), {"diameter"});
-  expect_words(refusal({"cube", "8"}, NAN), {"diameter", "finite"});
-  expect_words(refusal({"file"}), {".clump"});
-  expect_words(refusal({"file", "nowhere.clump"}), {"nowhere.clump"});
+  expect_sentence(refusal({"cone", "3"}), {"cone", "sphere", "cube", "disk", "file"});
+  expect_sentence(refusal({"cube", "9"}), {"cube 9", "27"});
+  expect_sentence(refusal({"cube", "1e9"}), {"1e9", "whole number"});
+  expect_sentence(refusal({"cube", "1000000000000"}), {"1000000000000"});
+  expect_sentence(refusal({"disk", "8"}), {"disk 8", "19"});
+  expect_sentence(refusal({"sphere", "-1"}), {"-1"});
+  expect_sentence(refusal({"sphere", "2"}), {"sphere 2", "6"});
+  expect_sentence(refusal({"cube"}), {"number of spheres"});
+  expect_sentence(refusal({}), {"missing"});
+  expect_sentence(refusal({"cube", "8"}, 0), {"diameter"});
+  expect_sentence(refusal({"cube", "8"}, NAN), {"diameter", "finite"});
+  expect_sentence(refusal({"file"}), {".clump"});
+  expect_sentence(refusal({"file", "nowhere.clump"}), {"nowhere.clump"});
   const std::string good = write_file("one.clump", "0 0 0 1\n");
-  expect_words(refusal({"file", good, "scale"}), {"scale"});
-  expect_words(refusal({"file", good, "scale", "0"}), {"scale", "'0'"});
-  expect_words(refusal({"stl", "part.stl", "spheres", "50"}), {"clusterShape"});
+  expect_sentence(refusal({"file", good, "scale"}), {"scale"});
+  expect_sentence(refusal({"file", good, "scale", "0"}), {"scale", "'0'"});
+  expect_sentence(refusal({"stl", "part.stl", "spheres", "50"}), {"clusterShape"});
 }
 
 TEST(ShapeWords, BadFilesEarnASentenceWithTheLine) {
   auto refused = [](const std::string& text) { return refusal({"file", write_file("bad.clump", text)}); };
-  expect_words(refused("0 0 0 1\n0 0 1\n"), {"bad.clump", "line 2", "3 numbers"});
-  expect_words(refused("0 0 0 1 7\n"), {"line 1", "5 numbers"});
-  expect_words(refused("# head\n0 0 zero 1\n"), {"line 2", "zero"});
-  expect_words(refused("0 0 nan 1\n"), {"line 1", "nan"});
-  expect_words(refused("0 0 0 inf\n"), {"line 1", "inf"});
-  expect_words(refused("0 0 0 0\n"), {"line 1", "radius"});
-  expect_words(refused("0 0 0 -2\n"), {"line 1", "radius"});
-  expect_words(refused("# nothing\n"), {"no spheres"});
-  expect_words(refused(""), {"no spheres"});
-  expect_words(refused("0 0 0 1\n5 0 0 1\n"), {"sphere 2", "touch"});
+  expect_sentence(refused("0 0 0 1\n0 0 1\n"), {"bad.clump", "line 2", "3 numbers"});
+  expect_sentence(refused("0 0 0 1 7\n"), {"line 1", "5 numbers"});
+  expect_sentence(refused("# head\n0 0 zero 1\n"), {"line 2", "zero"});
+  expect_sentence(refused("0 0 nan 1\n"), {"line 1", "nan"});
+  expect_sentence(refused("0 0 0 inf\n"), {"line 1", "inf"});
+  expect_sentence(refused("0 0 0 0\n"), {"line 1", "radius"});
+  expect_sentence(refused("0 0 0 -2\n"), {"line 1", "radius"});
+  expect_sentence(refused("# nothing\n"), {"no spheres"});
+  expect_sentence(refused(""), {"no spheres"});
+  expect_sentence(refused("0 0 0 1\n5 0 0 1\n"), {"sphere 2", "touch"});
 }
 
 } // namespace

@@ -17,18 +17,18 @@ using Eigen::Vector3d;
 
 constexpr double float_digits = 1e-6; // STL carries floats
 
-std::string refusal(const std::vector<std::string>& words) {
-  install_stl_words();
+std::string refusal(const std::vector<std::string>& arguments) {
+  install_stl_keywords();
   try {
     std::size_t used = 0;
-    make_shape(words, 0, used, 0);
+    make_shape(arguments, 0, used, 0);
   } catch (const std::invalid_argument& e) {
     return e.what();
   }
   return "accepted";
 }
 
-void expect_words(const std::string& text, const std::vector<std::string>& parts) {
+void expect_sentence(const std::string& text, const std::vector<std::string>& parts) {
   for (const std::string& part : parts)
     EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is missing in: " << text;
 }
@@ -133,11 +133,12 @@ TEST(Inscribed, StopsAtTheErrorAskedFor) {
 }
 
 TEST(StlWords, MassOfTheSolidOrOfTheSpheres) {
-  install_stl_words();
+  install_stl_keywords();
   write_stl("box.stl", box(Vector3d(500, 300, 400), Vector3d(100, 0, 0)));
-  const std::vector<std::string> words{"stl", "box.stl", "spheres", "20", "scale", "1e-3", "resolution", "20", "mass"};
+  const std::vector<std::string> arguments{"stl",  "box.stl",    "spheres", "20",  "scale",
+                                           "1e-3", "resolution", "20",      "mass"};
   auto with = [&](const std::string& mass, double diameter) {
-    std::vector<std::string> all = words;
+    std::vector<std::string> all = arguments;
     all.insert(all.end(), {mass, "diameter"});
     std::size_t used = 0;
     ClusterShape shape = make_shape(all, 0, used, diameter);
@@ -162,18 +163,18 @@ TEST(StlWords, BadOnesEarnASentence) {
   std::ofstream("empty.stl");
   write_stl("flat.stl", {{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)},
                          {Vector3d(0, 0, 0), Vector3d(0, 1, 0), Vector3d(1, 0, 0)}});
-  expect_words(refusal({"stl"}), {"STL file"});
-  expect_words(refusal({"stl", "cube.stl"}), {"cube.stl", "spheres N"});
-  expect_words(refusal({"stl", "nowhere.stl", "spheres", "5"}), {"nowhere.stl", "cannot read"});
-  expect_words(refusal({"stl", "holed.stl", "spheres", "5"}), {"holed.stl", "not a closed surface", "3 edges"});
-  expect_words(refusal({"stl", "words.stl", "spheres", "5"}), {"words.stl"});
-  expect_words(refusal({"stl", "empty.stl", "spheres", "5"}), {"empty.stl", "no triangles"});
-  expect_words(refusal({"stl", "flat.stl", "spheres", "5"}), {"flat.stl", "no volume"});
-  expect_words(refusal({"stl", "cube.stl", "spheres", "none"}), {"none", "whole number"});
-  expect_words(refusal({"stl", "cube.stl", "spheres", "2", "mass", "air"}), {"air", "solid or union"});
-  expect_words(refusal({"stl", "cube.stl", "spheres", "2", "scale", "-1"}), {"scale", "-1"});
-  expect_words(refusal({"stl", "cube.stl", "spheres", "4000", "resolution", "8"}), {"only", "4000", "resolution"});
-  expect_words(refusal({"stl", "cube.stl", "error", "1e-4", "resolution", "8"}), {"only", "resolution"});
+  expect_sentence(refusal({"stl"}), {"STL file"});
+  expect_sentence(refusal({"stl", "cube.stl"}), {"cube.stl", "spheres N"});
+  expect_sentence(refusal({"stl", "nowhere.stl", "spheres", "5"}), {"nowhere.stl", "cannot read"});
+  expect_sentence(refusal({"stl", "holed.stl", "spheres", "5"}), {"holed.stl", "not a closed surface", "3 edges"});
+  expect_sentence(refusal({"stl", "words.stl", "spheres", "5"}), {"words.stl"});
+  expect_sentence(refusal({"stl", "empty.stl", "spheres", "5"}), {"empty.stl", "no triangles"});
+  expect_sentence(refusal({"stl", "flat.stl", "spheres", "5"}), {"flat.stl", "no volume"});
+  expect_sentence(refusal({"stl", "cube.stl", "spheres", "none"}), {"none", "whole number"});
+  expect_sentence(refusal({"stl", "cube.stl", "spheres", "2", "mass", "air"}), {"air", "solid or union"});
+  expect_sentence(refusal({"stl", "cube.stl", "spheres", "2", "scale", "-1"}), {"scale", "-1"});
+  expect_sentence(refusal({"stl", "cube.stl", "spheres", "4000", "resolution", "8"}), {"only", "4000", "resolution"});
+  expect_sentence(refusal({"stl", "cube.stl", "error", "1e-4", "resolution", "8"}), {"only", "resolution"});
 }
 
 } // namespace

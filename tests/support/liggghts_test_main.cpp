@@ -24,7 +24,7 @@ LiggghtsSession::LiggghtsSession(MPI_Comm ranks) {
   for (std::string& word : words)
     arguments.push_back(word.data());
   lammps_ = std::make_unique<LAMMPS_NS::LAMMPS>(static_cast<int>(arguments.size()), arguments.data(), ranks);
-  eccentra::host::enter(lammps_.get());
+  eccentra::styles::enter(lammps_.get());
 }
 
 LiggghtsSession::~LiggghtsSession() = default;

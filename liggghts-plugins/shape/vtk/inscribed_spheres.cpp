@@ -15,8 +15,8 @@ namespace {
 
 constexpr int default_resolution = 48;     ///< points along the longest side
 constexpr int points_across_thinnest = 12; ///< at least, where the number of points allows
-constexpr double most_points = 1.5e6;      ///< of the grid
-constexpr int most_spheres = 4096;         ///< where only an error is asked for
+constexpr double max_points = 1.5e6;       ///< of the grid
+constexpr int max_spheres = 4096;          ///< where only an error is asked for
 /// The exact volume is worked out once the grid's estimate of the error is within this factor of the error asked for.
 constexpr double estimate_margin = 1.5;
 
@@ -40,7 +40,7 @@ Grid grid_for(const Solid& solid, int resolution) {
   grid.spacing = box.maxCoeff() / (resolution > 0 ? resolution : default_resolution);
   if (resolution <= 0)
     grid.spacing = std::min(grid.spacing, box.minCoeff() / points_across_thinnest);
-  grid.spacing = std::max(grid.spacing, std::cbrt(box.prod() / most_points));
+  grid.spacing = std::max(grid.spacing, std::cbrt(box.prod() / max_points));
   grid.half = (box / (2 * grid.spacing)).array().ceil().cast<int>();
   return grid;
 }
@@ -172,7 +172,7 @@ std::vector<Sphere> inscribed_spheres(const Solid& solid, const InscribedOptions
   if (filling.empty())
     throw std::invalid_argument("STL file '" + solid.path() + "' is thinner than the grid of its distance field" +
                                 finer);
-  const int limit = options.spheres > 0 ? options.spheres : most_spheres;
+  const int limit = options.spheres > 0 ? options.spheres : max_spheres;
   std::vector<Sphere> spheres;
   Sphere next;
   while (static_cast<int>(spheres.size()) < limit && filling.take(next)) {

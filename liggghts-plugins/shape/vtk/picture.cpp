@@ -37,9 +37,9 @@
 namespace eccentra::shape {
 namespace {
 
-constexpr int meridians = 64;              ///< per sphere of a drawn surface
-constexpr double crack_margin = 0.05;      ///< radii of covered surface that a picture keeps
-constexpr int most_meridian_spheres = 200; ///< more spheres get fewer meridians each
+constexpr int meridians = 64;             ///< per sphere of a drawn surface
+constexpr double crack_margin = 0.05;     ///< radii of covered surface that a picture keeps
+constexpr int max_meridian_spheres = 200; ///< more spheres get fewer meridians each
 constexpr int panel_width = 720, panel_height = 760;
 constexpr int supersampling = 2; ///< drawn this many times larger and averaged down: smooth edges
 constexpr double gap = 1.15;     ///< distance of neighbours in sums of bounding radii
@@ -50,7 +50,7 @@ bool ends_with(const std::string& text, const std::string& end) {
 
 int fineness_for(const ClusterShape& shape) {
   const int count = static_cast<int>(shape.surface_spheres().size());
-  return std::max(16, count <= most_meridian_spheres ? meridians : meridians * most_meridian_spheres / count);
+  return std::max(16, count <= max_meridian_spheres ? meridians : meridians * max_meridian_spheres / count);
 }
 
 void require_writable(const std::string& path) {

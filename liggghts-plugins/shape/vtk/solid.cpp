@@ -177,8 +177,8 @@ Solid::Solid(const std::string& path, double scale) : path_(path) {
       std::swap(t[1], t[2]);
     properties_ = integrate(vertices_, triangles_, middle);
   }
-  const double box = (high_ - low_).prod(), least_part = 1e-9;
-  if (!(properties_.volume > least_part * box))
+  const double box = (high_ - low_).prod(), min_part = 1e-9;
+  if (!(properties_.volume > min_part * box))
     throw std::invalid_argument(who + " encloses no volume");
   field_ = std::make_shared<DistanceField>();
   field_->function->SetInput(to_vtk(vertices_, triangles_));

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// STL words, and the measures of how spheres stand for a solid.
+// STL arguments, and the measures of how spheres stand for a solid.
 #include "shape/vtk/stl_shape.h"
 
 #include "shape/directions.h"
 #include "shape/eccentricity.h"
-#include "shape/shape_words.h"
+#include "shape/shape_keywords.h"
 #include "shape/union_geometry.h"
 
 #include <Eigen/Geometry>
@@ -19,8 +19,8 @@ namespace eccentra::shape {
 namespace {
 
 constexpr int surface_samples = 4000;
-constexpr int most_directions = 20000;
-constexpr double most_vertex_visits = 4e8; ///< directions times vertices
+constexpr int max_directions = 20000;
+constexpr double max_vertex_visits = 4e8; ///< directions times vertices
 /// Steps of the additive recurrence of least discrepancy in two dimensions (roots of x^3 = x + 1).
 constexpr double first_step = 0.7548776662466927, second_step = 0.5698402909980532;
 
@@ -52,18 +52,18 @@ double equivalent_radius(double volume) {
   return std::cbrt(3 * volume / (4 * M_PI));
 }
 
-ClusterShape from_stl_words(const std::vector<std::string>& words, std::size_t first, std::size_t& used,
-                            double diameter) {
-  const std::string path = word_at(words, first + 1, "the name of an STL file after 'stl'");
+ClusterShape from_stl_keywords(const std::vector<std::string>& arguments, std::size_t first, std::size_t& used,
+                               double diameter) {
+  const std::string path = word_at(arguments, first + 1, "the name of an STL file after 'stl'");
   InscribedOptions options;
   double scale = 1;
   MassOf mass_of = MassOf::spheres;
   used = 2;
-  for (std::size_t k = first + 2; k < words.size(); k += 2, used += 2) {
-    const std::string& key = words[k];
+  for (std::size_t k = first + 2; k < arguments.size(); k += 2, used += 2) {
+    const std::string& key = arguments[k];
     if (key != "spheres" && key != "scale" && key != "mass" && key != "resolution" && key != "error")
       break;
-    const std::string& value = word_at(words, k + 1, "a value after '" + key + "'");
+    const std::string& value = word_at(arguments, k + 1, "a value after '" + key + "'");
     if (key == "spheres")
       options.spheres = static_cast<int>(whole_number(value, "number of spheres of '" + path + "'"));
     else if (key == "error")
@@ -100,7 +100,7 @@ SolidEccentricity solid_eccentricity(const Solid& solid) {
   for (std::size_t k = 0; k < solid.vertices().size(); ++k)
     corners.col(k) = solid.vertices()[k] - centre;
   const int directions =
-      static_cast<int>(std::min<double>(most_directions, most_vertex_visits / static_cast<double>(corners.cols())));
+      static_cast<int>(std::min<double>(max_directions, max_vertex_visits / static_cast<double>(corners.cols())));
   const double unit = equivalent_radius(solid.properties().volume);
   SolidEccentricity e{0, 0};
   for (int k = 0; k < directions; ++k) {
@@ -137,8 +137,8 @@ FitQuality fit_quality(const Solid& solid, const SolidEccentricity& own, const s
   return fit;
 }
 
-void install_stl_words() {
-  install_stl_maker(from_stl_words);
+void install_stl_keywords() {
+  install_stl_maker(from_stl_keywords);
 }
 
 } // namespace eccentra::shape

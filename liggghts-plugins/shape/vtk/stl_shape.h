@@ -40,6 +40,6 @@ FitQuality fit_quality(const Solid& solid, const SolidEccentricity& own, const s
                        MassOf mass_of);
 
 /// Makes `stl NAME spheres N [scale S] [mass solid|union] [resolution M]` known to make_shape. Call once at start.
-void install_stl_words();
+void install_stl_keywords();
 
 } // namespace eccentra::shape

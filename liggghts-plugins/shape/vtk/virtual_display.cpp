@@ -17,7 +17,7 @@
 namespace eccentra::shape {
 namespace {
 
-constexpr int start_patience = 15000; ///< [ms]
+constexpr int start_timeout = 15000; ///< [ms]
 
 /// Becomes Xvfb, which writes its display number to `pipe_end`. Returns only if that fails.
 void become_server(int pipe_end) {
@@ -36,7 +36,7 @@ void become_server(int pipe_end) {
 std::string read_display(int pipe_end) {
   std::string text;
   pollfd ready{pipe_end, POLLIN, 0};
-  while (poll(&ready, 1, start_patience) > 0) {
+  while (poll(&ready, 1, start_timeout) > 0) {
     char c = 0;
     if (read(pipe_end, &c, 1) <= 0)
       return {};

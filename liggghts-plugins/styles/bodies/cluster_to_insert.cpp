@@ -3,7 +3,7 @@
 // Places one cluster and gives its atom shape, mass, orientation and angular momentum.
 #include "styles/bodies/cluster_to_insert.h"
 
-#include "styles/bodies/bodies.h"
+#include "styles/bodies/fix_cluster_bodies.h"
 
 #include "atom.h"
 #include "error.h"
@@ -13,7 +13,7 @@
 
 #include <algorithm>
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 using namespace LAMMPS_NS;
 
@@ -33,7 +33,7 @@ void ClusterToInsert::set_orientation(const double* insertion) {
 
 int ClusterToInsert::check_near_set_x_v_omega(double* x, double* v, double* omega, double* quat,
                                               RegionNeighborList<interpolate_no>& near) {
-  InsertionOverlap& insertion = FixBodies::require(lmp).insertion();
+  InsertionOverlap& insertion = FixClusterBodies::require(lmp).insertion();
   set_orientation(quat);
   PlacedBody body = insertion.body(shape_id, orientation_);
   // Dense fills: a place that is too tight for one orientation may be wide enough for another.
@@ -59,7 +59,7 @@ int ClusterToInsert::set_x_v_omega(double* x, double* v, double* omega, double* 
 
 int ClusterToInsert::insert() {
   const int inserted = ParticleToInsert::insert();
-  FixBodies::require(lmp).make_body(atom->nlocal - 1, shape_id, density_ins, orientation_);
+  FixClusterBodies::require(lmp).make_body(atom->nlocal - 1, shape_id, density_ins, orientation_);
   return inserted;
 }
 
@@ -67,4 +67,4 @@ void ClusterToInsert::scale_pti(double) {
   error->one(FLERR, "clusters cannot be scaled while they are inserted: declare one particletemplate/cluster per size");
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

@@ -8,7 +8,7 @@
 #include "particleToInsert.h"
 #include "random_park.h"
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 /// A particle to insert that becomes a body: stock code draws its place as for a sphere of the bounding radius; overlap
 /// is tested with its sub-spheres.
@@ -17,7 +17,7 @@ class ClusterToInsert : public LAMMPS_NS::ParticleToInsert {
   ClusterToInsert(LAMMPS_NS::LAMMPS* lmp, LAMMPS_NS::FixPropertyAtom* release)
       : ParticleToInsert(lmp, 1, release), shape_id(-1), own_orientation{1, 0, 0, 0} {}
 
-  int shape_id; ///< in FixBodies::shapes()
+  int shape_id; ///< in FixClusterBodies::shapes()
   LAMMPS_NS::RanPark* orientations =
       nullptr;               ///< draws other orientations where the first does not fit; null: none fits
   double own_orientation[4]; ///< drawn by the template; the `orientation` of fix insert comes on top
@@ -33,4 +33,4 @@ class ClusterToInsert : public LAMMPS_NS::ParticleToInsert {
   double orientation_[4] = {1, 0, 0, 0};
 };
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

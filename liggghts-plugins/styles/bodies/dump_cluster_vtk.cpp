@@ -3,7 +3,7 @@
 // dump cluster/vtk: gathers bodies on the first rank, which draws their sub-spheres from the table of shapes.
 #include "styles/bodies/dump_cluster_vtk.h"
 
-#include "styles/bodies/bodies.h"
+#include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/entry/style_registry.h"
 
 #include "atom.h"
@@ -26,13 +26,13 @@
 #include <cstring>
 #include <numeric>
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 using namespace LAMMPS_NS;
 
 namespace {
 
-const host::RegisterDump<DumpClusterVtk> record("cluster/vtk", "sub-spheres of clusters as VTK files for ParaView");
+const styles::RegisterDump<DumpClusterVtk> record("cluster/vtk", "sub-spheres of clusters as VTK files for ParaView");
 
 /// One body on its way to the first rank, as doubles.
 struct Body {
@@ -129,7 +129,7 @@ std::string DumpClusterVtk::file_name() const {
 }
 
 std::vector<double> DumpClusterVtk::gather() const {
-  FixBodies* bodies = FixBodies::find(lmp);
+  FixClusterBodies* bodies = FixClusterBodies::find(lmp);
   std::vector<double> mine;
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit))
@@ -137,7 +137,7 @@ std::vector<double> DumpClusterVtk::gather() const {
     Body body{};
     body.tag = atom->tag[i];
     body.type = atom->type[i];
-    body.shape = bodies ? bodies->shape_id(i) : FixBodies::plain_sphere;
+    body.shape = bodies ? bodies->shape_id(i) : FixClusterBodies::plain_sphere;
     std::copy(atom->x[i], atom->x[i] + 3, body.x);
     std::copy(atom->v[i], atom->v[i] + 3, body.v);
     if (atom->omega_flag)
@@ -164,12 +164,12 @@ void DumpClusterVtk::write_file(const std::vector<double>& rows) const {
   if (!sorted.empty())
     std::memcpy(static_cast<void*>(sorted.data()), rows.data(), rows.size() * sizeof(double));
   std::sort(sorted.begin(), sorted.end(), [](const Body& a, const Body& b) { return a.tag < b.tag; });
-  FixBodies* bodies = FixBodies::find(lmp);
+  FixClusterBodies* bodies = FixClusterBodies::find(lmp);
   Rows out;
   for (const Body& body : sorted) {
     const Eigen::Vector3d x(body.x[0], body.x[1], body.x[2]);
     const int shape = static_cast<int>(body.shape);
-    if (bodies_only_ || shape == FixBodies::plain_sphere) {
+    if (bodies_only_ || shape == FixClusterBodies::plain_sphere) {
       out.add(body, x, body.radius);
       continue;
     }
@@ -190,4 +190,4 @@ void DumpClusterVtk::write() {
     write_file(rows);
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 /// Rows are sorted by body, so that a file is the same on any number of ranks.
 class DumpClusterVtk : public LAMMPS_NS::Dump {
@@ -32,4 +32,4 @@ class DumpClusterVtk : public LAMMPS_NS::Dump {
   bool bodies_only_ = false;
 };
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

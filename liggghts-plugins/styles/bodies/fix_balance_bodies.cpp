@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 using namespace LAMMPS_NS;
 
@@ -108,7 +108,7 @@ class FixBalanceBodies : public Fix {
     // Narrower slabs would take their ghosts from ranks farther away.
     const double narrowest = std::max(comm->cutghost[k], neighbor->cutneighmax) / domain->prd[k];
     const std::vector<double> planes(split, split + comm->procgrid[k] + 1);
-    const std::vector<double> next = balanced_planes(planes, counts, narrowest);
+    const std::vector<double> next = contact::balanced_planes(planes, counts, narrowest);
     std::copy(next.begin(), next.end(), split);
   }
 
@@ -117,7 +117,8 @@ class FixBalanceBodies : public Fix {
 };
 
 namespace {
-const host::RegisterFix<FixBalanceBodies> registered("balance/bodies", "moves the planes between ranks by their load");
+const styles::RegisterFix<FixBalanceBodies> registered("balance/bodies",
+                                                       "moves the planes between ranks by their load");
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

@@ -3,7 +3,7 @@
 // The list of stock styles that take an atom's radius for its shape, and what to use instead.
 #include "styles/bodies/incompatible_styles.h"
 
-#include "styles/bodies/bodies.h"
+#include "styles/bodies/fix_cluster_bodies.h"
 
 #include "compute.h"
 #include "error.h"
@@ -14,7 +14,7 @@
 #include <cstring>
 #include <string>
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 namespace {
 
 using namespace LAMMPS_NS;
@@ -58,7 +58,7 @@ void refuse(LAMMPS* lmp, const std::string& what, const char* remedy) {
 
 } // namespace
 
-void refuse_incompatible_styles(LAMMPS* lmp, const FixBodies& bodies) {
+void refuse_incompatible_styles(LAMMPS* lmp, const FixClusterBodies& bodies) {
   if (bodies.shapes().size() == 0)
     return;
   if (!lmp->force->pair || std::strcmp(lmp->force->pair_style, "gran/cluster") != 0)
@@ -81,4 +81,4 @@ void refuse_incompatible_styles(LAMMPS* lmp, const FixBodies& bodies) {
   }
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

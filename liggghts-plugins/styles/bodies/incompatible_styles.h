@@ -7,11 +7,11 @@ namespace LAMMPS_NS {
 class LAMMPS;
 }
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
-class FixBodies;
+class FixClusterBodies;
 
 /// Stops all ranks with one sentence if the script declares clusters and uses a style that would be wrong for them.
-void refuse_incompatible_styles(LAMMPS_NS::LAMMPS* lmp, const FixBodies& bodies);
+void refuse_incompatible_styles(LAMMPS_NS::LAMMPS* lmp, const FixClusterBodies& bodies);
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

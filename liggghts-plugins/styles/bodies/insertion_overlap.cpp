@@ -3,7 +3,7 @@
 // Narrow-phase overlap tests of clusters under insertion.
 #include "styles/bodies/insertion_overlap.h"
 
-#include "styles/bodies/bodies.h"
+#include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/entry/private_access.h"
 
 #include "atom.h"
@@ -24,12 +24,12 @@ struct NearStencil {
 
 } // namespace
 
-namespace eccentra::host {
+namespace eccentra::styles {
 template struct PrivateMember<NearBins, &LAMMPS_NS::RegionNeighborList<false>::bins>;
 template struct PrivateMember<NearStencil, &LAMMPS_NS::RegionNeighborList<false>::stencil>;
-} // namespace eccentra::host
+} // namespace eccentra::styles
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 namespace {
 
@@ -84,7 +84,7 @@ std::size_t InsertionOverlap::Hash::operator()(const Place& place) const {
 PlacedBody InsertionOverlap::body(int shape_id, const double* quaternion) const {
   const shape::ClusterShape& shape = bodies_.shapes()[shape_id];
   double turn[9];
-  rotation_matrix(quaternion, turn);
+  contact::rotation_matrix(quaternion, turn);
   return {&shape.spheres(), shape.bounding_radius(),
           Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(turn)};
 }
@@ -93,7 +93,7 @@ void InsertionOverlap::take_atoms() {
   clusters_.clear();
   const Atom& atom = bodies_.host_atoms();
   for (int i = 0; i < atom.nlocal + atom.nghost; ++i)
-    if (bodies_.shape_id(i) != FixBodies::plain_sphere)
+    if (bodies_.shape_id(i) != FixClusterBodies::plain_sphere)
       clusters_.emplace(Place(atom.x[i]), body(bodies_.shape_id(i), bodies_.quaternion(i)));
   current_ = true;
 }
@@ -102,8 +102,8 @@ bool InsertionOverlap::overlaps(const PlacedBody& ours, const double* x,
                                 const LAMMPS_NS::RegionNeighborList<false>& near) {
   if (!current_)
     take_atoms();
-  const auto& bins = near.*host::Published<NearBins>::pointer;
-  const auto& stencil = near.*host::Published<NearStencil>::pointer;
+  const auto& bins = near.*styles::Published<NearBins>::pointer;
+  const auto& stencil = near.*styles::Published<NearStencil>::pointer;
   double position[3] = {x[0], x[1], x[2]};
   const int bin = near.coord2bin(position);
   const Eigen::Map<const Eigen::Vector3d> centre(x);
@@ -130,4 +130,4 @@ void InsertionOverlap::add(const PlacedBody& body, const double* x) {
   clusters_.emplace(Place(x), body);
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

@@ -15,9 +15,9 @@
 #include <unordered_map>
 #include <vector>
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
-class FixBodies;
+class FixClusterBodies;
 
 /// A body at its place. All its sub-spheres count, inner ones too: nothing may be put inside a body.
 struct PlacedBody {
@@ -34,7 +34,7 @@ bool bodies_touch(const PlacedBody& a, const PlacedBody& b, const Eigen::Vector3
 /// before, one that has just been placed, or else a plain sphere.
 class InsertionOverlap {
  public:
-  explicit InsertionOverlap(FixBodies& bodies) : bodies_(bodies) {}
+  explicit InsertionOverlap(FixClusterBodies& bodies) : bodies_(bodies) {}
 
   /// A new round of insertion begins: forgets what was placed, and takes the atoms of this rank (ghosts as well) anew
   /// at the next question.
@@ -59,9 +59,9 @@ class InsertionOverlap {
 
   void take_atoms();
 
-  FixBodies& bodies_;
+  FixClusterBodies& bodies_;
   bool current_ = false;
   std::unordered_map<Place, PlacedBody, Hash> clusters_;
 };
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

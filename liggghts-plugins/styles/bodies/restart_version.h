@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 /// Raise it with every change of what clusters, their contacts or their walls keep in restart files.
 constexpr int restart_format = 1;
@@ -22,4 +22,4 @@ inline std::string restart_problem(int mark, const std::string& who) {
          std::to_string(restart_format) + "): go on with the version that wrote it, or start the run anew";
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

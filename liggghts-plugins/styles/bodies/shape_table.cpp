@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table of shapes of a scene.
-#include "styles/bodies/bodies.h"
+#include "styles/bodies/fix_cluster_bodies.h"
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 namespace {
 
 bool same_shape(const shape::ClusterShape& a, const shape::ClusterShape& b) {
@@ -22,17 +22,17 @@ bool same_shape(const shape::ClusterShape& a, const shape::ClusterShape& b) {
 } // namespace
 
 ShapeTable::ShapeTable() {
-  surfaces_.push_back(std::make_unique<SurfaceSpheres>());
+  surfaces_.push_back(std::make_unique<contact::SurfaceSpheres>());
 }
 
 int ShapeTable::add(shape::ClusterShape shape) {
   for (int id = 0; id < size(); ++id)
     if (same_shape(*shapes_[id], shape))
       return id;
-  surfaces_.push_back(std::make_unique<SurfaceSpheres>(shape));
+  surfaces_.push_back(std::make_unique<contact::SurfaceSpheres>(shape));
   rotations_.emplace_back(shape.inertia_per_mass());
   shapes_.push_back(std::make_unique<shape::ClusterShape>(std::move(shape)));
   return size() - 1;
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

@@ -38,19 +38,19 @@ const LineBufferedOutput line_buffered_output;
 namespace LAMMPS_NS {
 
 void Input::file() {
-  eccentra::host::enter(lmp);
+  eccentra::styles::enter(lmp);
   static const auto stock = next_definition<void (*)(Input*)>("_ZN9LAMMPS_NS5Input4fileEv");
   stock(this);
 }
 
 void Input::file(const char* name) {
-  eccentra::host::enter(lmp);
+  eccentra::styles::enter(lmp);
   static const auto stock = next_definition<void (*)(Input*, const char*)>("_ZN9LAMMPS_NS5Input4fileEPKc");
   stock(this, name);
 }
 
 char* Input::one(const char* line) {
-  eccentra::host::enter(lmp);
+  eccentra::styles::enter(lmp);
   static const auto stock = next_definition<char* (*)(Input*, const char*)>("_ZN9LAMMPS_NS5Input3oneEPKc");
   return stock(this, line);
 }
@@ -58,8 +58,8 @@ char* Input::one(const char* line) {
 // Dump styles are a chain of comparisons, not a map: make a stock dump in our dump's place, then exchange the two.
 void Output::add_dump(int narg, char** arg) {
   static const auto stock = next_definition<void (*)(Output*, int, char**)>("_ZN9LAMMPS_NS6Output8add_dumpEiPPc");
-  const eccentra::host::StyleRecord* ours = nullptr;
-  for (const auto& record : eccentra::host::style_records())
+  const eccentra::styles::StyleRecord* ours = nullptr;
+  for (const auto& record : eccentra::styles::style_records())
     if (record.dump && narg > 2 && record.name == arg[2])
       ours = &record;
   if (!ours) {
@@ -72,7 +72,7 @@ void Output::add_dump(int narg, char** arg) {
   std::vector<char*> stock_arg(arg, arg + 5);
   stock_arg[2] = style.data();
   stock(this, 5, stock_arg.data());
-  // Ours first: if it refuses its words, what is in the list is still whole when LIGGGHTS takes itself down.
+  // Ours first: if it refuses its arguments, what is in the list is still whole when LIGGGHTS takes itself down.
   Dump* const our_dump = ours->dump(lmp, narg, arg);
   delete dump[ndump - 1];
   dump[ndump - 1] = our_dump;

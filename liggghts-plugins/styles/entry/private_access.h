@@ -4,7 +4,7 @@
 // (Never `#define private public`: it changes the meaning of standard headers.)
 #pragma once
 
-namespace eccentra::host {
+namespace eccentra::styles {
 
 /// Holds the pointer to member that PrivateMember publishes under Tag.
 template <class Tag> struct Published { static typename Tag::type pointer; };
@@ -17,4 +17,4 @@ template <class Tag, typename Tag::type member> struct PrivateMember {
 };
 template <class Tag, typename Tag::type member> PrivateMember<Tag, member> PrivateMember<Tag, member>::instance;
 
-} // namespace eccentra::host
+} // namespace eccentra::styles

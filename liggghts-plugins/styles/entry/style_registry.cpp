@@ -21,7 +21,7 @@
 namespace {
 
 using namespace LAMMPS_NS;
-using namespace eccentra::host;
+using namespace eccentra::styles;
 
 // Modify::fix_map, Modify::compute_map and Input::command_map are private and have no setter.
 struct FixMap {
@@ -36,7 +36,7 @@ struct CommandMap {
 
 } // namespace
 
-namespace eccentra::host {
+namespace eccentra::styles {
 
 template struct PrivateMember<FixMap, &LAMMPS_NS::Modify::fix_map>;
 template struct PrivateMember<ComputeMap, &LAMMPS_NS::Modify::compute_map>;
@@ -66,4 +66,4 @@ void enter(LAMMPS_NS::LAMMPS* lmp) {
   }
 }
 
-} // namespace eccentra::host
+} // namespace eccentra::styles

@@ -14,7 +14,7 @@ class Dump;
 class Pair;
 } // namespace LAMMPS_NS
 
-namespace eccentra::host {
+namespace eccentra::styles {
 
 using FixCreator = LAMMPS_NS::Fix* (*)(LAMMPS_NS::LAMMPS*, int, char**);
 using ComputeCreator = LAMMPS_NS::Compute* (*)(LAMMPS_NS::LAMMPS*, int, int, char**);
@@ -22,7 +22,7 @@ using DumpCreator = LAMMPS_NS::Dump* (*)(LAMMPS_NS::LAMMPS*, int, char**);
 using CommandCreator = void (*)(LAMMPS_NS::LAMMPS*, int, char**);
 using PairCreator = LAMMPS_NS::Pair* (*)(LAMMPS_NS::LAMMPS*);
 
-/// One style: the words a user types (for example "fix", "nve/cluster"), and a sentence for `eccentra-dem -h`.
+/// One style: the arguments a user types (for example "fix", "nve/cluster"), and a sentence for `eccentra-dem -h`.
 struct StyleRecord {
   std::string kind;
   std::string name;
@@ -59,13 +59,14 @@ template <class Style> struct RegisterDump : RegisterStyle {
       : RegisterStyle({"dump", name, summary, nullptr, nullptr, &create<Style, LAMMPS_NS::Dump>}) {}
 };
 
-/// Announces words that reach LIGGGHTS by another way (contact models, sub-styles of pair gran), for the list in -h.
-struct RegisterWords : RegisterStyle {
-  RegisterWords(const char* kind, const char* name, const char* summary) : RegisterStyle({kind, name, summary}) {}
+/// Announces arguments that reach LIGGGHTS by another way (contact models, sub-styles of pair gran), for the list in
+/// -h.
+struct RegisterKeywords : RegisterStyle {
+  RegisterKeywords(const char* kind, const char* name, const char* summary) : RegisterStyle({kind, name, summary}) {}
 };
 
 /// Makes all our styles known to this LIGGGHTS instance. Safe to call more than once. Stops all ranks with one sentence
 /// if the LIGGGHTS that loaded us is not the version that we were built against.
 void enter(LAMMPS_NS::LAMMPS* lmp);
 
-} // namespace eccentra::host
+} // namespace eccentra::styles

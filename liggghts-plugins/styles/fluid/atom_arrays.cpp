@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace eccentra::fluid {
+namespace eccentra::styles {
 
 void AtomArrays::declare(unsigned id, int columns, bool enabled) {
   for (Array& array : arrays_) {
@@ -89,4 +89,4 @@ int AtomArrays::unpack(int row, const double* buffer, unsigned written_layout) {
   return static_cast<int>(in - buffer);
 }
 
-} // namespace eccentra::fluid
+} // namespace eccentra::styles

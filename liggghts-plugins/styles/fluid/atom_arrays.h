@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-namespace eccentra::fluid {
+namespace eccentra::styles {
 
 /// A set of arrays of doubles with one row per atom. Rows are contiguous; an array that is not enabled takes no memory.
 class AtomArrays {
@@ -41,4 +41,4 @@ class AtomArrays {
   std::size_t rows_ = 0;
 };
 
-} // namespace eccentra::fluid
+} // namespace eccentra::styles

@@ -27,12 +27,12 @@
 
 using namespace LAMMPS_NS;
 
-namespace eccentra::fluid {
+namespace eccentra::styles {
 
 namespace {
-const host::RegisterFix<FixFluidCouple> kRecord("fluid/couple", "meets a fluid solver every N steps");
+const styles::RegisterFix<FixFluidCouple> kRecord("fluid/couple", "meets a fluid solver every N steps");
 
-constexpr int kTicketDoubles = 2;
+constexpr int kCellHintDoubles = 2;
 constexpr int kForceDoubles = 6;
 /// Entries of the vector of stock fix insert/*.
 constexpr int kInsertedNumber = 0;
@@ -78,8 +78,8 @@ void FixFluidCouple::connect() {
     return;
   try {
     using Rows = link::SocketPeer::Rows;
-    own_peer_ = std::make_unique<link::SocketPeer>(world, link::Address(address_, keys_), patience_,
-                                                   lanes_ ? Rows::on_lanes : Rows::over_root);
+    own_peer_ = std::make_unique<link::SocketPeer>(world, link::Address(address_, keys_), timeout_,
+                                                   rank_connections_ ? Rows::on_rank_connections : Rows::over_root);
   } catch (const link::Refusal& refusal) {
     refuse(refusal.what());
   }
@@ -92,14 +92,14 @@ void FixFluidCouple::refuse(const std::string& text) {
   std::abort(); // error->all does not return
 }
 
-void FixFluidCouple::read(const std::vector<std::string>& words) {
+void FixFluidCouple::read(const std::vector<std::string>& arguments) {
   bool waits = false;
-  for (std::size_t next = 0; next < words.size();) {
-    const std::string& keyword = words[next++];
+  for (std::size_t next = 0; next < arguments.size();) {
+    const std::string& keyword = arguments[next++];
     const auto value = [&](const char* what) -> const std::string& {
-      if (next >= words.size())
+      if (next >= arguments.size())
         refuse("the word '" + keyword + "' needs " + what);
-      return words[next++];
+      return arguments[next++];
     };
     if (keyword == "link") {
       link_ = value("solver or socket ADDRESS");
@@ -119,7 +119,7 @@ void FixFluidCouple::read(const std::vector<std::string>& words) {
       const std::string& text = value("yes or no");
       if (text != "yes" && text != "no")
         refuse(keyword + " has '" + text + "': give yes or no");
-      (keyword == "overlap" ? overlap_ : lanes_) = text == "yes";
+      (keyword == "overlap" ? overlap_ : rank_connections_) = text == "yes";
     } else if (keyword == "keys") {
       keys_ = value("a folder made by eccentra-keys");
     } else if (keyword == "timeout" || keyword == "wait") {
@@ -128,7 +128,7 @@ void FixFluidCouple::read(const std::vector<std::string>& words) {
       const double seconds = std::strtod(text.c_str(), &end);
       if (end == text.c_str() || *end || !(seconds > 0) || seconds > kLongestWait)
         refuse(keyword + " has '" + text + "': give a positive number of seconds up to 1e6");
-      (keyword == "wait" ? patience_.arrival : patience_.silence) = seconds;
+      (keyword == "wait" ? timeout_.arrival : timeout_.silence) = seconds;
       waits = true;
     } else {
       refuse("unknown word '" + keyword +
@@ -140,7 +140,7 @@ void FixFluidCouple::read(const std::vector<std::string>& words) {
     refuse(
         "the word 'link' is missing: add link solver (the fluid solver hosts this script) or link socket ADDRESS (it "
         "runs apart)");
-  if ((waits || !keys_.empty() || !lanes_) && link_ != "socket")
+  if ((waits || !keys_.empty() || !rank_connections_) && link_ != "socket")
     refuse("keys, timeout, wait and lanes belong to link socket: drop them");
   if (overlap_ && link_ != "socket")
     refuse(
@@ -166,7 +166,7 @@ void FixFluidCouple::init() {
   forces_->announce_source(id);
   if (resuming_)
     forces_->carry_on();
-  bodies_ = cluster::FixBodies::find(lmp);
+  bodies_ = styles::FixClusterBodies::find(lmp);
   if (domain->triclinic)
     refuse("needs a box with right angles: make the simulation box orthogonal");
   if (link_ == "solver") {
@@ -194,7 +194,7 @@ link::DemTerms FixFluidCouple::terms() const {
   terms.extents = bodies_ != nullptr;
   terms.overlap = overlap_;
   terms.fluid_density = forces_->rho_f();
-  const fluid::Rheology& law = forces_->rheology();
+  const closures::Rheology& law = forces_->rheology();
   terms.rheology = {law.yield_stress, law.consistency, law.index};
   if (resuming_)
     terms.resumes = mark_;
@@ -214,18 +214,18 @@ void FixFluidCouple::setup(int) {
     refuse("the checkpoint is one of step " + std::to_string(mark_.step) + " but this run begins at step " +
            std::to_string(update->ntimestep) + ": remove what changes the step between read_restart and the run");
   if (!agreed_ && !resuming_)
-    tickets_.assign(tickets_.size(), link::Ticket{});
+    cell_hints_.assign(cell_hints_.size(), link::CellHint{});
   pack();
   try {
     const std::uint64_t layout = peer_->agree(terms()).layout;
     if (layout != layout_)
-      tickets_.assign(tickets_.size(), link::Ticket{});
+      cell_hints_.assign(cell_hints_.size(), link::CellHint{});
     layout_ = layout;
   } catch (const link::Refusal& refusal) {
     refuse(refusal.what());
   }
   if (!agreed_)
-    tell_of_lanes();
+    announce_rank_connections();
   agreed_ = true;
   if (!met_) {
     forces_->reset_reaction();
@@ -237,7 +237,7 @@ void FixFluidCouple::setup(int) {
   leave_fluid();
 }
 
-void FixFluidCouple::tell_of_lanes() const {
+void FixFluidCouple::announce_rank_connections() const {
   if (comm->me != 0 || !own_peer_ || own_peer_->why_over_root().empty())
     return;
   for (FILE* out : {screen, logfile})
@@ -277,7 +277,7 @@ void FixFluidCouple::end_of_step() {
   const int stop_before = stop_;
   meet(interval_ * update->dt);
   forces_->reset_reaction();
-  ++meetings_;
+  ++coupling_steps_;
   if (next_reneighbor == update->ntimestep)
     write_checkpoint();
   if (stop_before)
@@ -338,17 +338,17 @@ void FixFluidCouple::pack_extent(int i, double* extent) {
   }
 }
 
-void FixFluidCouple::add_totals(double computed, link::Meeting& meeting) const {
-  link::DemTotals& sums = meeting.totals;
-  const FluidReaction reaction = forces_->reaction();
+void FixFluidCouple::add_totals(double computed, link::CouplingStep& coupling_step) const {
+  link::DemTotals& sums = coupling_step.totals;
+  const link::FluidReaction reaction = forces_->reaction();
   enum {
     kVolume,
     kMass,
     kImpulse,
     kMomentum = kImpulse + 3,
     kPosition = kMomentum + 3,
-    kVelocity = kPosition + 3,
-    kParticles = kVelocity + 3,
+    kVelocitySum = kPosition + 3,
+    kParticles = kVelocitySum + 3,
     kComputed,
     kCount
   };
@@ -366,7 +366,7 @@ void FixFluidCouple::add_totals(double computed, link::Meeting& meeting) const {
       mine[kImpulse + k] += reaction.impulse[i][k];
       mine[kMomentum + k] += atom->rmass[i] * atom->v[i][k] + 0.5 * update->dt * atom->f[i][k];
       mine[kPosition + k] += volume_[i] * position_[3 * std::size_t(i) + k];
-      mine[kVelocity + k] += volume_[i] * atom->v[i][k];
+      mine[kVelocitySum + k] += volume_[i] * atom->v[i][k];
       speed += atom->v[i][k] * atom->v[i][k];
     }
     fastest = std::max(fastest, speed);
@@ -375,10 +375,10 @@ void FixFluidCouple::add_totals(double computed, link::Meeting& meeting) const {
   MPI_Allreduce(mine, all, kCount, MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(MPI_IN_PLACE, most, kMaxima, MPI_DOUBLE, MPI_MAX, world);
   sums.fastest = std::sqrt(fastest);
-  meeting.load.ranks = comm->nprocs;
-  meeting.load.most_particles = std::llround(most[kMostParticles]);
-  meeting.load.mean_seconds = all[kComputed] / comm->nprocs;
-  meeting.load.most_seconds = most[kMostComputed];
+  coupling_step.load.ranks = comm->nprocs;
+  coupling_step.load.max_particles = std::llround(most[kMostParticles]);
+  coupling_step.load.mean_seconds = all[kComputed] / comm->nprocs;
+  coupling_step.load.max_seconds = most[kMostComputed];
   sums.particles = std::llround(all[kParticles]);
   for (int i = 0; i < modify->nfix; ++i) {
     Fix* const fix = modify->fix[i];
@@ -392,24 +392,24 @@ void FixFluidCouple::add_totals(double computed, link::Meeting& meeting) const {
   std::copy_n(all + kImpulse, 3, sums.impulse);
   std::copy_n(all + kMomentum, 3, sums.momentum);
   std::copy_n(all + kPosition, 3, sums.volume_position);
-  std::copy_n(all + kVelocity, 3, sums.volume_velocity);
+  std::copy_n(all + kVelocitySum, 3, sums.volume_velocity);
 }
 
 void FixFluidCouple::meet(double elapsed) {
   const double arrived = MPI_Wtime();
   const double waited = link::waiting_seconds() - waited_before_;
   const double computed = elapsed > 0 ? std::max(0.0, arrived - left_fluid_at_ - waited) : 0.0;
-  link::Meeting meeting;
-  meeting.needed = forces_->needs();
-  meeting.elapsed = elapsed;
-  meeting.dem_seconds = elapsed > 0 ? arrived - left_fluid_at_ : 0.0;
-  meeting.pack_seconds = pack_seconds_;
-  meeting.steps_done = update->ntimestep - update->firststep;
-  meeting.steps_total = update->laststep - update->firststep;
+  link::CouplingStep coupling_step;
+  coupling_step.needed = forces_->needs();
+  coupling_step.elapsed = elapsed;
+  coupling_step.dem_seconds = elapsed > 0 ? arrived - left_fluid_at_ : 0.0;
+  coupling_step.pack_seconds = pack_seconds_;
+  coupling_step.steps_done = update->ntimestep - update->firststep;
+  coupling_step.steps_total = update->laststep - update->firststep;
   pack();
-  add_totals(computed, meeting);
-  load_.add(meeting);
-  const FluidReaction reaction = forces_->reaction();
+  add_totals(computed, coupling_step);
+  load_.add(coupling_step);
+  const link::FluidReaction reaction = forces_->reaction();
   link::ParticleArrays particles;
   particles.count = atom->nlocal;
   particles.position = reinterpret_cast<RowsOfThree>(position_.data());
@@ -418,10 +418,10 @@ void FixFluidCouple::meet(double elapsed) {
   particles.drag_coefficient = reaction.drag_coefficient;
   if (bodies_)
     particles.extent = reinterpret_cast<const double(*)[link::kExtentDoubles]>(extent_.data());
-  particles.ticket = tickets_.data();
+  particles.cell_hint = cell_hints_.data();
   pack_seconds_ = MPI_Wtime() - arrived;
   try {
-    const int signal = peer_->meet(meeting, particles, forces_->samples());
+    const int signal = peer_->meet(coupling_step, particles, forces_->samples());
     if (stop_ == 0)
       stop_ = signal;
   } catch (const link::Refusal& refusal) {
@@ -433,43 +433,43 @@ void FixFluidCouple::meet(double elapsed) {
 }
 
 void FixFluidCouple::grow_arrays(int rows) {
-  tickets_.resize(rows);
+  cell_hints_.resize(rows);
   if (resuming_)
     resumed_.resize(rows);
 }
 
 void FixFluidCouple::copy_arrays(int from, int to, int) {
-  tickets_[to] = tickets_[from];
+  cell_hints_[to] = cell_hints_[from];
   if (resuming_)
     resumed_[to] = resumed_[from];
 }
 
 void FixFluidCouple::set_arrays(int i) {
-  tickets_[i] = link::Ticket{};
+  cell_hints_[i] = link::CellHint{};
   if (resuming_)
     resumed_[i] = Resumed{};
 }
 
 int FixFluidCouple::pack_exchange(int i, double* buffer) {
-  buffer[0] = tickets_[i].rank;
-  buffer[1] = tickets_[i].cell;
+  buffer[0] = cell_hints_[i].rank;
+  buffer[1] = cell_hints_[i].cell;
   if (!resuming_)
-    return kTicketDoubles;
-  std::memcpy(buffer + kTicketDoubles, resumed_[i].values, sizeof resumed_[i].values);
-  return kTicketDoubles + kForceDoubles;
+    return kCellHintDoubles;
+  std::memcpy(buffer + kCellHintDoubles, resumed_[i].values, sizeof resumed_[i].values);
+  return kCellHintDoubles + kForceDoubles;
 }
 
 int FixFluidCouple::unpack_exchange(int row, double* buffer) {
-  tickets_[row] = {static_cast<std::int32_t>(buffer[0]), static_cast<std::int32_t>(buffer[1])};
+  cell_hints_[row] = {static_cast<std::int32_t>(buffer[0]), static_cast<std::int32_t>(buffer[1])};
   if (!resuming_)
-    return kTicketDoubles;
-  std::memcpy(resumed_[row].values, buffer + kTicketDoubles, sizeof resumed_[row].values);
-  return kTicketDoubles + kForceDoubles;
+    return kCellHintDoubles;
+  std::memcpy(resumed_[row].values, buffer + kCellHintDoubles, sizeof resumed_[row].values);
+  return kCellHintDoubles + kForceDoubles;
 }
 
 double FixFluidCouple::memory_usage() {
-  return double(tickets_.capacity() * sizeof(link::Ticket)) +
+  return double(cell_hints_.capacity() * sizeof(link::CellHint)) +
          double((position_.capacity() + volume_.capacity() + extent_.capacity()) * sizeof(double));
 }
 
-} // namespace eccentra::fluid
+} // namespace eccentra::styles

@@ -6,7 +6,7 @@
 #include "link/fluid_peer.h"
 #include "link/load_sums.h"
 #include "link/socket/socket_peer.h"
-#include "styles/bodies/bodies.h"
+#include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/fluid/fix_fluid_force.h"
 
 #include <mpi.h>
@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace eccentra::fluid {
+namespace eccentra::styles {
 
 /// Hands positions, volumes and the impulses that fix fluid/force has gathered to the fluid, and puts what the flow is
 /// at each particle into fix fluid/force. Knows the fluid only as a link::FluidPeer.
@@ -48,17 +48,17 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   double memory_usage() override;
 
  private:
-  /// Force and torque with which a run goes on, and the ticket.
+  /// Force and torque with which a run goes on, and the cell hint.
   struct Resumed {
     double values[6];
   };
   [[noreturn]] void refuse(const std::string& text);
   void connect();
-  void tell_of_lanes() const;
-  void read(const std::vector<std::string>& words);
+  void announce_rank_connections() const;
+  void read(const std::vector<std::string>& arguments);
   link::DemTerms terms() const;
   void meet(double elapsed);
-  /// Sees to it that the atoms are sorted and listed anew in the step of the next meeting, if a checkpoint is due
+  /// Sees to it that the atoms are sorted and listed anew in the step of the next coupling step, if a checkpoint is due
   /// there: the run that reads it begins with just that.
   void plan_checkpoint();
   void write_checkpoint();
@@ -69,42 +69,42 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   void keep_particles();
   void pack();
   void pack_extent(int i, double* extent);
-  /// `computed`: seconds of this rank since the last meeting, without waiting.
-  void add_totals(double computed, link::Meeting& meeting) const;
+  /// `computed`: seconds of this rank since the last coupling step, without waiting.
+  void add_totals(double computed, link::CouplingStep& coupling_step) const;
   void begin_interval();
   void leave_fluid();
 
   std::string link_;
   std::string address_; ///< of link socket
   std::string keys_;    ///< folder
-  link::Patience patience_;
+  link::Timeout timeout_;
   int interval_ = 0;
   int countdown_ = 0;
   bool overlap_ = false;
-  bool lanes_ = true;  ///< ranks send their particles themselves where that is possible
-  bool ahead_ = false; ///< with overlap: the fluid takes the step of the present interval
+  bool rank_connections_ = true; ///< ranks send their particles themselves where that is possible
+  bool ahead_ = false;           ///< with overlap: the fluid takes the step of the present interval
   bool agreed_ = false;
   bool met_ = false;
-  int checkpoint_every_ = 0;     ///< meetings; 0: only when a signal asks to stop
-  std::int64_t meetings_ = 0;    ///< since the beginning, also of earlier runs
-  int stop_ = 0;                 ///< signal that asks one of the sides to stop
-  link::CheckpointMark mark_;    ///< while a checkpoint is written, or until the run that goes on from it has begun
-  std::uint64_t layout_ = 0;     ///< for which the tickets hold
-  bool resuming_ = false;        ///< until the first step
-  std::vector<Resumed> resumed_; ///< per atom, while resuming_
+  int checkpoint_every_ = 0;        ///< coupling steps; 0: only when a signal asks to stop
+  std::int64_t coupling_steps_ = 0; ///< since the beginning, also of earlier runs
+  int stop_ = 0;                    ///< signal that asks one of the sides to stop
+  link::CheckpointMark mark_;       ///< while a checkpoint is written, or until the run that goes on from it has begun
+  std::uint64_t layout_ = 0;        ///< for which the cell hint hold
+  bool resuming_ = false;           ///< until the first step
+  std::vector<Resumed> resumed_;    ///< per atom, while resuming_
   link::FluidPeer* peer_ = nullptr;
   std::unique_ptr<link::SocketPeer> own_peer_; ///< null with link solver
   FixFluidForce* forces_ = nullptr;
-  cluster::FixBodies* bodies_ = nullptr; ///< null where all particles are spheres
+  styles::FixClusterBodies* bodies_ = nullptr; ///< null where all particles are spheres
 
-  std::vector<link::Ticket> tickets_; ///< per atom; migrates
-  std::vector<double> position_;      ///< packed rows of three
+  std::vector<link::CellHint> cell_hints_; ///< per atom; migrates
+  std::vector<double> position_;           ///< packed rows of three
   std::vector<double> volume_;
   std::vector<double> extent_; ///< packed rows of link::kExtentDoubles; empty where all particles are spheres
-  double left_fluid_at_ = 0;   ///< wall-clock time when the last meeting ended [s]
+  double left_fluid_at_ = 0;   ///< wall-clock time when the last coupling step ended [s]
   double waited_before_ = 0;   ///< link::waiting_seconds() at that time
   link::LoadSums load_;        ///< of the present run
   double pack_seconds_ = 0;
 };
 
-} // namespace eccentra::fluid
+} // namespace eccentra::styles

@@ -27,14 +27,14 @@
 
 using namespace LAMMPS_NS;
 
-namespace eccentra::fluid {
+namespace eccentra::styles {
 
 namespace {
 
 /// The newest checkpoints that are kept: a damaged one has one before it.
 constexpr int kKept = 2;
 constexpr int kForceDoubles = 6;
-constexpr int kTicketDoubles = 2;
+constexpr int kCellHintDoubles = 2;
 
 /// A restart file in memory, where no disk can be full: LIGGGHTS does not look whether its writing succeeds.
 class FileInMemory {
@@ -82,7 +82,7 @@ void remove_others(std::int64_t step) {
 } // namespace
 
 void FixFluidCouple::plan_checkpoint() {
-  const bool due = checkpoint_every_ > 0 && (meetings_ + 1) % checkpoint_every_ == 0;
+  const bool due = checkpoint_every_ > 0 && (coupling_steps_ + 1) % checkpoint_every_ == 0;
   next_reneighbor = due || stop_ ? update->ntimestep + countdown_ : -1;
   // The set-up of a run sorts the atoms; what it reads shall be sorted already.
   if (next_reneighbor >= 0 && atom->sortfreq > 0)
@@ -152,8 +152,8 @@ void FixFluidCouple::keep_particles() {
     file = std::string(link::kCheckpoints) + "/particles-alone.restart";
     std::vector<char> name(file.begin(), file.end());
     name.push_back('\0');
-    char* words[] = {name.data()};
-    WriteRestart(lmp).command(1, words);
+    char* arguments[] = {name.data()};
+    WriteRestart(lmp).command(1, arguments);
   } catch (const std::exception&) {
     // The sentence about the link is what counts.
   }
@@ -174,8 +174,8 @@ int FixFluidCouple::pack_restart(int i, double* buffer) {
   buffer[0] = size_restart(i);
   std::copy_n(atom->f[i], 3, buffer + 1);
   std::copy_n(atom->torque[i], 3, buffer + 4);
-  buffer[1 + kForceDoubles] = tickets_[i].rank;
-  buffer[2 + kForceDoubles] = tickets_[i].cell;
+  buffer[1 + kForceDoubles] = cell_hints_[i].rank;
+  buffer[2 + kForceDoubles] = cell_hints_[i].cell;
   return size_restart(i);
 }
 
@@ -185,22 +185,22 @@ void FixFluidCouple::unpack_restart(int row, int nth) {
     extra += static_cast<int>(*extra);
   if (resuming_)
     std::copy_n(extra + 1, kForceDoubles, resumed_[row].values);
-  tickets_[row] = {static_cast<std::int32_t>(extra[1 + kForceDoubles]),
-                   static_cast<std::int32_t>(extra[2 + kForceDoubles])};
+  cell_hints_[row] = {static_cast<std::int32_t>(extra[1 + kForceDoubles]),
+                      static_cast<std::int32_t>(extra[2 + kForceDoubles])};
 }
 
 int FixFluidCouple::size_restart(int) {
-  return 1 + kForceDoubles + kTicketDoubles;
+  return 1 + kForceDoubles + kCellHintDoubles;
 }
 
 int FixFluidCouple::maxsize_restart() {
-  return 1 + kForceDoubles + kTicketDoubles;
+  return 1 + kForceDoubles + kCellHintDoubles;
 }
 
 void FixFluidCouple::write_restart(FILE* file) {
   if (comm->me != 0)
     return;
-  const std::int64_t state[] = {mark_.step, static_cast<std::int64_t>(mark_.id), meetings_,
+  const std::int64_t state[] = {mark_.step, static_cast<std::int64_t>(mark_.id), coupling_steps_,
                                 static_cast<std::int64_t>(layout_)};
   const int bytes = sizeof state;
   std::fwrite(&bytes, sizeof bytes, 1, file);
@@ -215,11 +215,11 @@ void FixFluidCouple::restart(char* buffer) {
   if (state[0] < 0)
     return;
   mark_ = {state[0], static_cast<std::uint64_t>(state[1])};
-  meetings_ = state[2];
+  coupling_steps_ = state[2];
   layout_ = static_cast<std::uint64_t>(state[3]);
   resuming_ = true;
   met_ = true;
   resumed_.assign(atom->nmax, Resumed{});
 }
 
-} // namespace eccentra::fluid
+} // namespace eccentra::styles

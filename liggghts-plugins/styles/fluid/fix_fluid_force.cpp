@@ -23,11 +23,11 @@
 
 using namespace LAMMPS_NS;
 
-namespace eccentra::fluid {
+namespace eccentra::styles {
 
 namespace {
 
-const host::RegisterFix<FixFluidForce>
+const styles::RegisterFix<FixFluidForce>
     kRecord("fluid/force", "drag, lift, pressure, stress and buoyancy forces of a Herschel-Bulkley fluid on particles");
 
 constexpr const char* kEffectOrder[] = {"drag",           "shear_lift", "rotational_lift", "pressure_gradient",
@@ -37,7 +37,7 @@ constexpr int kDimension = 3;
 } // namespace
 
 FixFluidForce::FixFluidForce(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg), geometry_(lmp) {
-  const std::vector<std::string> words(arg + 3, arg + narg);
+  const std::vector<std::string> arguments(arg + 3, arg + narg);
   if (!atom->radius_flag || !atom->rmass_flag)
     error->all(FLERR, "fix fluid/force needs particles with radius and mass: use atom_style granular");
   if (find(lmp))
@@ -45,14 +45,14 @@ FixFluidForce::FixFluidForce(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg,
                        "': write all effects in one fix fluid/force")
                           .c_str());
   try {
-    options_ = read_fluid_options(words, atom->ntypes);
+    options_ = closures::read_fluid_options(arguments, atom->ntypes);
   } catch (const std::invalid_argument& problem) {
     error->all(FLERR, ("fix fluid/force '" + std::string(id) + "': " + problem.what()).c_str());
   }
-  effects_ = make_effects(options_);
+  effects_ = closures::make_effects(options_);
   seconds_.assign(effects_.size(), 0.0);
   if (options_.screen.tolerance > 0.0)
-    screen_ = std::make_unique<EffectScreen>(options_.screen, effects_);
+    screen_ = std::make_unique<closures::EffectScreen>(options_.screen, effects_);
   geometry_.set_sphericity(options_.sphericity);
 
   vector_flag = 1;
@@ -106,17 +106,17 @@ void FixFluidForce::declare_arrays() {
   grow_arrays(atom->nmax);
 }
 
-FluidSamples FixFluidForce::samples() {
+link::FluidSamples FixFluidForce::samples() {
   awaits_samples_ = false;
   return sample_arrays();
 }
 
-FluidSamples FixFluidForce::sample_arrays() {
+link::FluidSamples FixFluidForce::sample_arrays() {
   const auto rows_of_three = [this](unsigned array) { return reinterpret_cast<double(*)[3]>(arrays_.data(array)); };
   return {rows_of_three(0), arrays_.data(1), rows_of_three(2), rows_of_three(3), rows_of_three(4)};
 }
 
-FluidReaction FixFluidForce::reaction() {
+link::FluidReaction FixFluidForce::reaction() {
   return {reinterpret_cast<double(*)[3]>(arrays_.data(kImpulse)), arrays_.data(kCoefficient), elapsed_};
 }
 
@@ -130,7 +130,7 @@ void FixFluidForce::reset_reaction() {
 std::array<double, 3> FixFluidForce::received(int i) {
   const double* impulse = arrays_.data(kImpulse) + kDimension * std::size_t(i);
   const double* last = arrays_.data(kLast) + (kDimension + 1) * std::size_t(i);
-  return {impulse[0] - owed_ * last[0], impulse[1] - owed_ * last[1], impulse[2] - owed_ * last[2]};
+  return {impulse[0] - pending_ * last[0], impulse[1] - pending_ * last[1], impulse[2] - pending_ * last[2]};
 }
 
 bool FixFluidForce::acts(const std::string& effect) const {
@@ -196,35 +196,36 @@ void FixFluidForce::setup(int) {
   reported_ = true;
 }
 
-// The first half kick of a run is applied here and not in setup(), where fixes further down have not yet added theirs.
+// The first half half step of a run is applied here and not in setup(), where fixes further down have not yet added
+// theirs.
 void FixFluidForce::pre_initial_integrate() {
   if (!first_step_)
     return;
   first_step_ = false;
-  // The half kick that a run before this one left unapplied is replaced by a new one.
+  // The half half step that a run before this one left unapplied is replaced by a new one.
   auto* impulse = reinterpret_cast<double(*)[3]>(arrays_.data(kImpulse));
   auto* last = reinterpret_cast<double(*)[4]>(arrays_.data(kLast));
   double* coefficient = arrays_.data(kCoefficient);
   for (int i = 0; i < atom->nlocal; ++i) {
     for (int k = 0; k < kDimension; ++k)
-      impulse[i][k] -= owed_ * last[i][k];
-    coefficient[i] -= owed_ * last[i][kDimension];
+      impulse[i][k] -= pending_ * last[i][k];
+    coefficient[i] -= pending_ * last[i][kDimension];
   }
-  elapsed_ -= owed_;
+  elapsed_ -= pending_;
   apply(0.5 * update->dt);
-  owed_ = 0.0;
+  pending_ = 0.0;
 }
 
 void FixFluidForce::pre_final_integrate() {
   apply(update->dt);
-  owed_ = 0.5 * update->dt;
+  pending_ = 0.5 * update->dt;
   if (screen_)
     follow_screen();
 }
 
-Kick FixFluidForce::make_kick(double interval) {
+closures::HalfStep FixFluidForce::make_half_step(double interval) {
   geometry_.refresh();
-  Kick kick;
+  closures::HalfStep kick;
   kick.count = atom->nlocal;
   kick.interval = interval;
   kick.velocity = atom->v;
@@ -253,7 +254,7 @@ Kick FixFluidForce::make_kick(double interval) {
 }
 
 void FixFluidForce::apply(double interval) {
-  const Kick kick = make_kick(interval);
+  const closures::HalfStep kick = make_half_step(interval);
   std::fill_n(arrays_.data(kLast), (kDimension + 1) * std::size_t(kick.count), 0.0);
   elapsed_ += interval;
   if (screen_ && screen_->sample_now()) {
@@ -287,7 +288,7 @@ void FixFluidForce::copy_arrays(int from, int to, int) {
 // Until the flow is sampled at it, a new particle moves with the fluid, in clear fluid.
 void FixFluidForce::set_arrays(int i) {
   arrays_.zero(i);
-  const FluidSamples flow = sample_arrays();
+  const link::FluidSamples flow = sample_arrays();
   if (flow.velocity)
     std::copy_n(atom->v[i], kDimension, flow.velocity[i]);
   if (flow.fraction)
@@ -326,7 +327,7 @@ int FixFluidForce::maxsize_restart() {
 }
 
 void FixFluidForce::write_restart(FILE* file) {
-  std::vector<double> state = {elapsed_, owed_, double(effects_.size())};
+  std::vector<double> state = {elapsed_, pending_, double(effects_.size())};
   for (const bool on : acting_)
     state.push_back(on);
   state.push_back(measurement_due_);
@@ -346,7 +347,7 @@ void FixFluidForce::write_restart(FILE* file) {
 void FixFluidForce::restart(char* buffer) {
   const auto* state = reinterpret_cast<const double*>(buffer);
   elapsed_ = state[0];
-  owed_ = state[1];
+  pending_ = state[1];
   const auto count = static_cast<std::size_t>(state[2]);
   const double* screened = state + 4 + count;
   if (count != effects_.size() || !screen_ || *screened == 0.0)
@@ -372,4 +373,4 @@ double FixFluidForce::compute_vector(int n) {
   return all;
 }
 
-} // namespace eccentra::fluid
+} // namespace eccentra::styles

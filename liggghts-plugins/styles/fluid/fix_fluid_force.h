@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace eccentra::fluid {
+namespace eccentra::styles {
 
 /// Forces act after all others of a step (pre_final_integrate), wherever the fix stands in the script, because drag is
 /// implicit against them. Whoever samples the flow (fix fluid/uniform, fix fluid/couple) announces itself in init(),
@@ -34,18 +34,18 @@ class FixFluidForce : public LAMMPS_NS::Fix {
   static FixFluidForce* find(LAMMPS_NS::LAMMPS* lmp);
 
   /// Quantities that the effects which are on read: bits of Quantity. With a screen this may change between steps; read
-  /// it at every meeting with the fluid.
+  /// it at every coupling step with the fluid.
   unsigned needs() const { return needs_; }
   /// Where to put them: rows are local atoms; null where a quantity is not needed. Pointers hold until atoms migrate.
-  FluidSamples samples();
+  link::FluidSamples samples();
   /// What the particles received since the last reset. A momentum balance with the velocities that pre_final_integrate
-  /// and end_of_step see is exact up to the half kick that the integrator still owes.
-  FluidReaction reaction();
+  /// and end_of_step see is exact up to the half half step that the integrator still owes.
+  link::FluidReaction reaction();
   void reset_reaction();
-  /// Of that, what local atom i has in its velocity Atom::v by now: without the half kick that the integrator owes [N
-  /// s].
+  /// Of that, what local atom i has in its velocity Atom::v by now: without the half half step that the integrator owes
+  /// [N s].
   std::array<double, 3> received(int i);
-  /// The next run goes on exactly where the run that wrote the restart file was: its first half kick is in Atom::f
+  /// The next run goes on exactly where the run that wrote the restart file was: its first half half step is in Atom::f
   /// already. Call before that run's setup().
   void carry_on() { carries_on_ = true; }
   /// The fix that fills samples(), by id; a second one is an error at set-up.
@@ -55,7 +55,7 @@ class FixFluidForce : public LAMMPS_NS::Fix {
   /// buoyancy.
   bool acts(const std::string& effect) const;
 
-  const Rheology& rheology() const { return options_.rheology; }
+  const closures::Rheology& rheology() const { return options_.rheology; }
   double rho_f() const { return options_.rheology.density; }
   /// Volume of local atom i [m3]: of the union of a cluster's spheres, not of its bounding sphere.
   double particle_volume(int i) const { return geometry_.volume(i); }
@@ -88,8 +88,8 @@ class FixFluidForce : public LAMMPS_NS::Fix {
 
  private:
   enum ArrayId : unsigned { kImpulse = 8, kCoefficient = 9, kLast = 10 };
-  FluidSamples sample_arrays();
-  Kick make_kick(double interval);
+  link::FluidSamples sample_arrays();
+  closures::HalfStep make_half_step(double interval);
   /// Sets which effects act, and the quantities and arrays that they need.
   void switch_effects(const std::vector<bool>& on);
   void declare_arrays();
@@ -102,14 +102,14 @@ class FixFluidForce : public LAMMPS_NS::Fix {
   void report_cost();
   void print(const std::string& text);
 
-  FluidOptions options_;
-  EffectList effects_;          ///< all that may act
-  std::vector<bool> acting_;    ///< which of them do
-  std::vector<double> seconds_; ///< spent in each since the last report
-  double visits_ = 0.0;         ///< particles times steps since then
+  closures::FluidOptions options_;
+  closures::EffectList effects_; ///< all that may act
+  std::vector<bool> acting_;     ///< which of them do
+  std::vector<double> seconds_;  ///< spent in each since the last report
+  double visits_ = 0.0;          ///< particles times steps since then
   double run_began_ = 0.0;
   LAMMPS_NS::bigint first_of_run_ = 0;
-  std::unique_ptr<EffectScreen> screen_;
+  std::unique_ptr<closures::EffectScreen> screen_;
   bool measurement_due_ = false; ///< it begins when the flow has been sampled for all effects
   bool awaits_samples_ = false;
   ParticleGeometry geometry_;
@@ -118,11 +118,11 @@ class FixFluidForce : public LAMMPS_NS::Fix {
   std::vector<std::string> sources_;
   unsigned needs_ = 0;
   double elapsed_ = 0.0;
-  double owed_ = 0.0; ///< time of the last kick that the integrator has not applied yet [s]
+  double pending_ = 0.0; ///< time of the last half step that the integrator has not applied yet [s]
   bool first_step_ = true;
   bool carries_on_ = false;
   bool reported_ = false;
   bool range_warned_ = false;
 };
 
-} // namespace eccentra::fluid
+} // namespace eccentra::styles

@@ -16,7 +16,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace eccentra::fluid {
+namespace eccentra::styles {
 
 namespace {
 /// Shorter runs say nothing about cost, and scripts make them by the hundred.
@@ -107,16 +107,16 @@ void FixFluidForce::post_run() {
 
 // Towards small numbers every closure has a limit that it keeps; only above its range is it extrapolated.
 void FixFluidForce::report_ranges() {
-  const Kick kick = make_kick(update->dt);
+  const closures::HalfStep kick = make_half_step(update->dt);
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     if (!acting_[e])
       continue;
-    for (const Validity& validity : effects_[e]->validity()) {
+    for (const closures::Validity& validity : effects_[e]->validity()) {
       LAMMPS_NS::bigint outside[2] = {0, 0};
       for (int i = 0; i < kick.count; ++i) {
         if (!(kick.mask[i] & groupbit))
           continue;
-        outside[0] += particle_numbers(kick, i, options_.rheology)[validity.number] > validity.high;
+        outside[0] += closures::particle_numbers(kick, i, options_.rheology)[validity.number] > validity.high;
         ++outside[1];
       }
       MPI_Allreduce(MPI_IN_PLACE, outside, 2, MPI_LMP_BIGINT, MPI_SUM, world);
@@ -128,7 +128,7 @@ void FixFluidForce::report_ranges() {
                     "fix fluid/force '%s': %s is used outside its range by %ld of %ld particles: %s is above %g (see "
                     "docs/closures.md for what it does there; said once)",
                     id, effects_[e]->name(), static_cast<long>(outside[0]), static_cast<long>(outside[1]),
-                    kNumberNames[validity.number], validity.high);
+                    closures::kNumberNames[validity.number], validity.high);
       if (comm->me == 0)
         error->warning(FLERR, text);
     }
@@ -155,4 +155,4 @@ void FixFluidForce::report_cost() {
   print(text + part);
 }
 
-} // namespace eccentra::fluid
+} // namespace eccentra::styles

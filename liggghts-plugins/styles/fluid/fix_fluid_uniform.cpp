@@ -22,11 +22,11 @@
 
 using namespace LAMMPS_NS;
 
-namespace eccentra::fluid {
+namespace eccentra::styles {
 
 namespace {
-const host::RegisterFix<FixFluidUniform> kRecord("fluid/uniform",
-                                                 "a prescribed flow for fix fluid/force, no solver needed");
+const styles::RegisterFix<FixFluidUniform> kRecord("fluid/uniform",
+                                                   "a prescribed flow for fix fluid/force, no solver needed");
 }
 
 const FixFluidUniform::Word FixFluidUniform::kWords[] = {{"velocity", kVelocityAt, 3},
@@ -45,10 +45,10 @@ FixFluidUniform::FixFluidUniform(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, n
   }
 }
 
-void FixFluidUniform::read(const std::vector<std::string>& words) {
+void FixFluidUniform::read(const std::vector<std::string>& arguments) {
   bool has_velocity = false;
-  for (std::size_t next = 0; next < words.size();) {
-    const std::string& keyword = words[next++];
+  for (std::size_t next = 0; next < arguments.size();) {
+    const std::string& keyword = arguments[next++];
     const Word* word =
         std::find_if(std::begin(kWords), std::end(kWords), [&](const Word& known) { return keyword == known.keyword; });
     if (word == std::end(kWords)) {
@@ -58,17 +58,17 @@ void FixFluidUniform::read(const std::vector<std::string>& words) {
       throw std::invalid_argument("unknown word '" + keyword + "': known are " + names);
     }
     has_velocity |= word->first == kVelocityAt;
-    if (words.size() - next < std::size_t(word->count))
-      throw std::invalid_argument("keyword '" + keyword + "' has " + std::to_string(words.size() - next) +
+    if (arguments.size() - next < std::size_t(word->count))
+      throw std::invalid_argument("keyword '" + keyword + "' has " + std::to_string(arguments.size() - next) +
                                   " values: it needs " + std::to_string(word->count));
     for (int k = 0; k < word->count; ++k) {
       Value& value = values_[word->first + k];
-      const std::string& text = words[next++];
+      const std::string& text = arguments[next++];
       if (text.rfind("v_", 0) == 0) {
         value.variable = text.substr(2);
         variables_ = true;
       } else {
-        value.number = read_number(text, "keyword '" + keyword + "'");
+        value.number = closures::read_number(text, "keyword '" + keyword + "'");
       }
     }
   }
@@ -133,7 +133,7 @@ void FixFluidUniform::evaluate() {
 void FixFluidUniform::fill() {
   if (variables_)
     evaluate();
-  const FluidSamples flow = forces_->samples();
+  const link::FluidSamples flow = forces_->samples();
   double** x = atom->x;
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit))
@@ -159,4 +159,4 @@ void FixFluidUniform::fill() {
   }
 }
 
-} // namespace eccentra::fluid
+} // namespace eccentra::styles

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace eccentra::fluid {
+namespace eccentra::styles {
 
 class FixFluidForce;
 
@@ -51,7 +51,7 @@ class FixFluidUniform : public LAMMPS_NS::Fix {
   };
   static const Word kWords[];
 
-  void read(const std::vector<std::string>& words);
+  void read(const std::vector<std::string>& arguments);
   void evaluate();
   void fill();
 
@@ -60,4 +60,4 @@ class FixFluidUniform : public LAMMPS_NS::Fix {
   bool variables_ = false;
 };
 
-} // namespace eccentra::fluid
+} // namespace eccentra::styles

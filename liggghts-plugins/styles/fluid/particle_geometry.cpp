@@ -3,7 +3,7 @@
 // Implements ParticleGeometry on LIGGGHTS's atoms.
 #include "styles/fluid/particle_geometry.h"
 
-#include "styles/bodies/bodies.h"
+#include "styles/bodies/fix_cluster_bodies.h"
 
 #include <mpi.h>
 
@@ -14,14 +14,14 @@
 
 #include <algorithm>
 
-namespace eccentra::fluid {
+namespace eccentra::styles {
 
 namespace {
 constexpr double kSphereInertia = 0.4;
 }
 
 void ParticleGeometry::init() {
-  bodies_ = cluster::FixBodies::find(lmp_);
+  bodies_ = styles::FixClusterBodies::find(lmp_);
   if (bodies_)
     areas_.resize(bodies_->shapes().size());
 }
@@ -51,8 +51,8 @@ int ParticleGeometry::kinds() const {
   return lmp_->atom->ntypes + 1 + (bodies_ ? bodies_->shapes().size() : 0);
 }
 
-ShapeFactors ParticleGeometry::factors(int kind) const {
-  ShapeFactors shape;
+closures::ShapeFactors ParticleGeometry::factors(int kind) const {
+  closures::ShapeFactors shape;
   const int id = kind - lmp_->atom->ntypes - 1;
   if (id >= 0)
     shape.sphericity = std::min(1.0, bodies_->shapes()[id].sphericity());
@@ -75,12 +75,12 @@ double ParticleGeometry::crosswise_sphericity(int i, const double* direction) co
     return 1.0;
   const shape::ClusterShape& cluster = bodies_->shapes()[id];
   if (!areas_[id])
-    areas_[id] = std::make_unique<ProjectedAreaTable>(cluster.spheres());
+    areas_[id] = std::make_unique<closures::ProjectedAreaTable>(cluster.spheres());
   const double* q = bodies_->quaternion(i);
   const Eigen::Vector3d world(direction[0], direction[1], direction[2]);
   const Eigen::Vector3d body = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * world;
   const double radius = cluster.equivalent_radius();
-  return kPi * radius * radius / areas_[id]->at(body);
+  return closures::kPi * radius * radius / areas_[id]->at(body);
 }
 
 double ParticleGeometry::radius_of(int i) const {
@@ -88,4 +88,4 @@ double ParticleGeometry::radius_of(int i) const {
   return shape < 0 ? lmp_->atom->radius[i] : bodies_->shapes()[shape].equivalent_radius();
 }
 
-} // namespace eccentra::fluid
+} // namespace eccentra::styles

@@ -15,16 +15,16 @@
 namespace LAMMPS_NS {
 class LAMMPS;
 }
-namespace eccentra::cluster {
-class FixBodies;
+namespace eccentra::styles {
+class FixClusterBodies;
 }
 
-namespace eccentra::fluid {
+namespace eccentra::styles {
 
 /// Size and shape of every local atom. A plain sphere is itself; a cluster is the union of its spheres, never its
 /// bounding sphere. A "kind" numbers all particles that share shape factors: atom types (from 1), then clusters'
 /// shapes.
-class ParticleGeometry : public ShapeCatalogue {
+class ParticleGeometry : public closures::ShapeCatalogue {
  public:
   explicit ParticleGeometry(LAMMPS_NS::LAMMPS* lmp) : lmp_(lmp) {}
 
@@ -40,11 +40,11 @@ class ParticleGeometry : public ShapeCatalogue {
   /// Kind of each local atom.
   const int* kind() const;
   int kinds() const override;
-  ShapeFactors factors(int kind) const override;
+  closures::ShapeFactors factors(int kind) const override;
   double inertia_factor(int kind) const override;
   double crosswise_sphericity(int i, const double* direction) const override;
 
-  double volume(int i) const { return sphere_volume(radius_of(i)); }
+  double volume(int i) const { return closures::sphere_volume(radius_of(i)); }
   double diameter(int i) const { return 2.0 * radius_of(i); }
 
  private:
@@ -52,10 +52,10 @@ class ParticleGeometry : public ShapeCatalogue {
 
   LAMMPS_NS::LAMMPS* lmp_;
   std::vector<double> sphericity_ = {1.0};
-  cluster::FixBodies* bodies_ = nullptr; ///< null where no cluster was declared; then nothing below is used
+  styles::FixClusterBodies* bodies_ = nullptr; ///< null where no cluster was declared; then nothing below is used
   std::vector<double> radius_;
   std::vector<int> kind_;
-  mutable std::vector<std::unique_ptr<ProjectedAreaTable>> areas_; ///< by shape id, made at first use
+  mutable std::vector<std::unique_ptr<closures::ProjectedAreaTable>> areas_; ///< by shape id, made at first use
 };
 
-} // namespace eccentra::fluid
+} // namespace eccentra::styles

@@ -5,18 +5,18 @@
 
 #include "link/flow_quantities.h"
 
-namespace eccentra::fluid {
+namespace eccentra::styles {
 
 struct SampleArray {
-  Quantity quantity;
+  link::Quantity quantity;
   const char* name;
   int columns;
 };
 /// An array's id is its place here.
-inline constexpr SampleArray kSampleArrays[] = {{kVelocity, "velocity", 3},
-                                                {kFraction, "fraction", 1},
-                                                {kPressureGradient, "pressure gradient", 3},
-                                                {kStressDivergence, "stress divergence", 3},
-                                                {kVorticity, "vorticity", 3}};
+inline constexpr SampleArray kSampleArrays[] = {{link::kVelocity, "velocity", 3},
+                                                {link::kFraction, "fraction", 1},
+                                                {link::kPressureGradient, "pressure gradient", 3},
+                                                {link::kStressDivergence, "stress divergence", 3},
+                                                {link::kVorticity, "vorticity", 3}};
 
-} // namespace eccentra::fluid
+} // namespace eccentra::styles

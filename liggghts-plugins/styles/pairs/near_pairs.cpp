@@ -13,7 +13,7 @@
 #include <type_traits>
 #include <unordered_map>
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 using namespace LAMMPS_NS;
 
@@ -42,7 +42,7 @@ void ContactList::make_room(std::size_t count) {
     fit(d);
 }
 
-NearPairs::NearPairs(LAMMPS* lmp, FixBodies& bodies, FixContactHistory& history)
+NearPairs::NearPairs(LAMMPS* lmp, FixClusterBodies& bodies, FixClusterHistory& history)
     : Pointers(lmp), bodies_(bodies), history_(history) {}
 
 void NearPairs::rebuild(const NeighList& list) {
@@ -117,10 +117,10 @@ void NearPairs::update_bodies(double dt, int held_groups) {
   if (new_list_)
     kinds_.clear();
   for (int i = 0; i < bodies; ++i) {
-    BodyState& body = bodies_now_[i];
-    const SurfaceSpheres& surface = bodies_.shapes().surface(bodies_.shape_id(i));
+    contact::BodyState& body = bodies_now_[i];
+    const contact::SurfaceSpheres& surface = bodies_.shapes().surface(bodies_.shape_id(i));
     if (new_list_) {
-      body = BodyState();
+      body = contact::BodyState();
       body.mass = atom->rmass[i];
       body.type = atom->type[i];
       body.held = (atom->mask[i] & held_groups) != 0;
@@ -150,7 +150,7 @@ void NearPairs::update_bodies(double dt, int held_groups) {
       body.turn_inertia(surface.inverse_inertia);
   }
   new_list_ = false;
-  std::fill(forces_.begin(), forces_.end(), BodyForce());
+  std::fill(forces_.begin(), forces_.end(), contact::BodyForce());
 }
 
 // As short as can be: each step asks all pairs.
@@ -186,7 +186,7 @@ void NearPairs::add_forces() const {
 double NearPairs::relative_speed(const NearPair& p, const double* offset) const {
   if (p.direct())
     return speed_of_centres(p);
-  const BodyState &a = bodies_now_[p.a], &b = bodies_now_[p.b];
+  const contact::BodyState &a = bodies_now_[p.a], &b = bodies_now_[p.b];
   const double *va = a.v, *vb = b.v, *wa = a.omega, *wb = b.omega;
   const double v[3] = {vb[0] - va[0], vb[1] - va[1], vb[2] - va[2]};
   const double u[3] = {v[0] - (wa[1] * offset[2] - wa[2] * offset[1]), v[1] - (wa[2] * offset[0] - wa[0] * offset[2]),
@@ -316,4 +316,4 @@ double NearPairs::memory_usage() const {
          static_cast<double>(candidates.bytes()) + static_cast<double>(searches.capacity()) * sizeof(PairSearch);
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "contact/candidates.h"
-#include "styles/bodies/bodies.h"
-#include "styles/pairs/contact_history.h"
+#include "styles/bodies/fix_cluster_bodies.h"
+#include "styles/pairs/fix_cluster_history.h"
 
 #include "pointers.h"
 
@@ -18,7 +18,7 @@ namespace LAMMPS_NS {
 class NeighList;
 }
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 /// Two bodies near each other. A has the lower tag, so that every rank that meets the pair computes the same.
 struct alignas(64) NearPair {
@@ -26,7 +26,7 @@ struct alignas(64) NearPair {
 
   int a, b; ///< local or ghost indices
   int tag_a, tag_b;
-  const SurfaceSpheres *surface_a, *surface_b;
+  const contact::SurfaceSpheres *surface_a, *surface_b;
   double extra_a, extra_b; ///< added to the sub-spheres' radii (plain spheres) [m]
   int candidate_first;     ///< into the candidate store
   int candidate_count;
@@ -44,8 +44,8 @@ static_assert(sizeof(NearPair) == 64, "a cache line");
 
 /// Of pairs whose bounding spheres have met, which are few of those in the list.
 struct PairSearch {
-  RelativePose pose;      ///< at the last search
-  int candidate_room = 0; ///< in the candidate store
+  contact::RelativePose pose; ///< at the last search
+  int candidate_room = 0;     ///< in the candidate store
 };
 
 /// What tells whether a pair needs a look at all; apart from the rest and short, as most pairs do not and all are
@@ -74,7 +74,7 @@ class BodyKinds {
     double mass;
     int type;
     bool held;
-    const SurfaceSpheres* surface;
+    const contact::SurfaceSpheres* surface;
     bool operator==(const Kind& k) const {
       return mass == k.mass && type == k.type && held == k.held && surface == k.surface;
     }
@@ -114,7 +114,7 @@ struct ContactList {
 /// number of ranks nor on when neighbour lists were built, and results agree to the last bit.
 class NearPairs : protected LAMMPS_NS::Pointers {
  public:
-  NearPairs(LAMMPS_NS::LAMMPS* lmp, FixBodies& bodies, FixContactHistory& history);
+  NearPairs(LAMMPS_NS::LAMMPS* lmp, FixClusterBodies& bodies, FixClusterHistory& history);
 
   /// True while the arrays here hold the newest history.
   bool live() const { return live_; }
@@ -127,18 +127,18 @@ class NearPairs : protected LAMMPS_NS::Pointers {
   std::vector<PairWake> wakes; ///< one per pair
   std::vector<char> idle;      ///< one per pair
   ContactList contacts, next;  ///< of the last step; the one under construction
-  CandidateStore candidates;
+  contact::CandidateStore candidates;
   std::vector<PairSearch> searches;
 
   /// Once a step of `dt` [s]: states of all bodies, ghosts as well, and changes of their velocities; no forces.
   void update_bodies(double dt, int held_groups);
-  const BodyState& body(int i) const { return bodies_now_[i]; }
+  const contact::BodyState& body(int i) const { return bodies_now_[i]; }
   /// The same number for bodies of the same mass, material and shape.
   int kind(int i) const { return kind_[i]; }
   /// From A's centre to B's [m]; fourth lane: anything.
-  Double4 offset(const NearPair& p) const {
-    Double4 a, b; // of the mass, too, as it stands beside the position
-    static_assert(offsetof(BodyState, mass) == 3 * sizeof(double));
+  contact::Double4 offset(const NearPair& p) const {
+    contact::Double4 a, b; // of the mass, too, as it stands beside the position
+    static_assert(offsetof(contact::BodyState, mass) == 3 * sizeof(double));
     std::memcpy(&a, &bodies_now_[p.a], sizeof a);
     std::memcpy(&b, &bodies_now_[p.b], sizeof b);
     return b - a;
@@ -147,7 +147,7 @@ class NearPairs : protected LAMMPS_NS::Pointers {
   int body_count() const { return static_cast<int>(bodies_now_.size()); }
   /// True for a body without any velocity in this step.
   bool at_rest(int i) const {
-    const BodyState& b = bodies_now_[i];
+    const contact::BodyState& b = bodies_now_[i];
     return b.v[0] == 0 && b.v[1] == 0 && b.v[2] == 0 && b.omega[0] == 0 && b.omega[1] == 0 && b.omega[2] == 0;
   }
   /// Takes a pair out of the loop over pairs, and back into it.
@@ -159,7 +159,7 @@ class NearPairs : protected LAMMPS_NS::Pointers {
     idle[pair] = 0;
     wakes[pair].room = -1;
   }
-  BodyForce& force(int i) { return forces_[i]; }
+  contact::BodyForce& force(int i) { return forces_[i]; }
   /// Adds the forces to the atoms of this rank.
   void add_forces() const;
   /// Asks for the data of a pair ahead of its turn.
@@ -204,8 +204,8 @@ class NearPairs : protected LAMMPS_NS::Pointers {
  private:
   void take_history();
 
-  FixBodies& bodies_;
-  FixContactHistory& history_;
+  FixClusterBodies& bodies_;
+  FixClusterHistory& history_;
   bool live_ = false;
   int local_at_build_ = 0;
   float time_ = 0; ///< since the list was made [s]
@@ -213,8 +213,8 @@ class NearPairs : protected LAMMPS_NS::Pointers {
   BodyKinds kinds_;
   std::vector<int> kind_; ///< per body
   std::vector<VelocityChange> change_;
-  std::vector<BodyState> bodies_now_;
-  std::vector<BodyForce> forces_;
+  std::vector<contact::BodyState> bodies_now_;
+  std::vector<contact::BodyForce> forces_;
 };
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

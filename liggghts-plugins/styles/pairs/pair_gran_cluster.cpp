@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// pair_style gran/cluster as LIGGGHTS sees it: words, materials, lists, restart. The force loop is in
+// pair_style gran/cluster as LIGGGHTS sees it: arguments, materials, lists, restart. The force loop is in
 // pair_gran_cluster_forces.cpp.
 #include "styles/pairs/pair_gran_cluster.h"
 
+#include "styles/bodies/fix_sleep_cluster.h"
 #include "styles/bodies/restart_version.h"
-#include "styles/bodies/sleep_cluster.h"
 #include "styles/entry/style_registry.h"
 
 #include "atom.h"
@@ -20,7 +20,7 @@
 #include <cstring>
 #include <string>
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 using namespace LAMMPS_NS;
 
@@ -32,9 +32,9 @@ Pair* create_pair(LAMMPS* lmp) {
   return new PairGranCluster(lmp);
 }
 
-const host::RegisterStyle registered({"pair_style", "gran/cluster",
-                                      "Hertz-Mindlin contacts between clusters (and plain spheres)", nullptr, nullptr,
-                                      nullptr, nullptr, &create_pair});
+const styles::RegisterStyle registered({"pair_style", "gran/cluster",
+                                        "Hertz-Mindlin contacts between clusters (and plain spheres)", nullptr, nullptr,
+                                        nullptr, nullptr, &create_pair});
 
 /// A keyword with the values that it takes; `is_set` hears which one was typed.
 struct Choice {
@@ -56,7 +56,7 @@ PairGranCluster::PairGranCluster(LAMMPS* lmp) : PairGran(lmp) {}
 PairGranCluster::~PairGranCluster() {
   // The fix that keeps history outlives us only where the whole of LIGGGHTS ends.
   if (near_)
-    FixContactHistory::require(lmp).hand_over = nullptr;
+    FixClusterHistory::require(lmp).hand_over = nullptr;
 }
 
 void PairGranCluster::settings(int narg, char** arg) {
@@ -70,7 +70,7 @@ void PairGranCluster::settings(int narg, char** arg) {
       {"contacts", {"shared", "parallel"}},
       {"damping", {"stock", "paper"}},
   };
-  words_ = ClusterContactWords();
+  arguments_ = ClusterContactKeywords();
   bool have_model = false;
   for (int i = 0; i < narg; i += 2) {
     const std::string keyword = arg[i];
@@ -97,11 +97,11 @@ void PairGranCluster::settings(int narg, char** arg) {
                      .c_str());
     have_model = have_model || keyword == "model";
     if (keyword == "contacts")
-      words_.sharing = value == "shared" ? ContactSharing::shared : ContactSharing::parallel;
+      arguments_.sharing = value == "shared" ? ContactSharing::shared : ContactSharing::parallel;
     if (keyword == "damping")
-      words_.damping = value == "stock" ? DampingLaw::stock : DampingLaw::paper;
+      arguments_.damping = value == "stock" ? contact::DampingLaw::stock : contact::DampingLaw::paper;
     if (keyword == "tangential_damping")
-      words_.tangential_damping = value == "on";
+      arguments_.tangential_damping = value == "on";
   }
   if (!have_model)
     error->all(
@@ -128,15 +128,15 @@ void PairGranCluster::init_granular() {
   registry.connect("betaeff", damping_, style);
   registry.connect("coeffFrict", friction_, style);
 
-  bodies_ = &FixBodies::require(lmp);
+  bodies_ = &FixClusterBodies::require(lmp);
   for (int id = 0; id < bodies_->shapes().size(); ++id)
-    if (bodies_->shapes().surface(id).count >= max_surface_spheres)
+    if (bodies_->shapes().surface(id).count >= contact::max_surface_spheres)
       error->all(FLERR, ("shape '" + bodies_->shapes()[id].name() + "' has " +
                          std::to_string(bodies_->shapes().surface(id).count) +
                          " sub-spheres at its surface; contacts can number at most " +
-                         std::to_string(max_surface_spheres - 1) + ": use a coarser shape")
+                         std::to_string(contact::max_surface_spheres - 1) + ": use a coarser shape")
                             .c_str());
-  FixContactHistory& history = FixContactHistory::require(lmp);
+  FixClusterHistory& history = FixClusterHistory::require(lmp);
   if (!near_)
     near_ = std::make_unique<NearPairs>(lmp, *bodies_, history);
   resting_ = FixSleepCluster::find(lmp) ? std::make_unique<RestingPairs>() : nullptr;
@@ -169,8 +169,8 @@ double PairGranCluster::stressStrainExponent() {
 }
 
 void PairGranCluster::write_restart_settings(FILE* fp) {
-  const int values[] = {restart_mark, static_cast<int>(words_.sharing), static_cast<int>(words_.damping),
-                        words_.tangential_damping ? 1 : 0};
+  const int values[] = {restart_mark, static_cast<int>(arguments_.sharing), static_cast<int>(arguments_.damping),
+                        arguments_.tangential_damping ? 1 : 0};
   fwrite(values, sizeof(int), 4, fp);
 }
 
@@ -181,9 +181,9 @@ void PairGranCluster::read_restart_settings(FILE* fp, const int, const int) {
   MPI_Bcast(values, 4, MPI_INT, 0, world);
   if (const std::string problem = restart_problem(values[0], style); !problem.empty())
     error->all(FLERR, problem.c_str());
-  words_.sharing = static_cast<ContactSharing>(values[1]);
-  words_.damping = static_cast<DampingLaw>(values[2]);
-  words_.tangential_damping = values[3] != 0;
+  arguments_.sharing = static_cast<ContactSharing>(values[1]);
+  arguments_.damping = static_cast<contact::DampingLaw>(values[2]);
+  arguments_.tangential_damping = values[3] != 0;
 }
 
 double PairGranCluster::memory_usage() {
@@ -199,4 +199,4 @@ void* PairGranCluster::extract(const char* name, int& dim) {
   return PairGran::extract(name, dim);
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

@@ -16,15 +16,15 @@
 #include <memory>
 #include <vector>
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 /// How several contacts of the same two bodies share damping.
 enum class ContactSharing { shared, parallel };
 
 /// The choices that a user types, also kept in restart files.
-struct ClusterContactWords {
+struct ClusterContactKeywords {
   ContactSharing sharing = ContactSharing::shared;
-  DampingLaw damping = DampingLaw::stock;
+  contact::DampingLaw damping = contact::DampingLaw::stock;
   bool tangential_damping = true;
 };
 
@@ -34,7 +34,7 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   explicit PairGranCluster(LAMMPS_NS::LAMMPS* lmp);
   ~PairGranCluster() override;
 
-  const ClusterContactWords& words() const { return words_; }
+  const ClusterContactKeywords& arguments() const { return arguments_; }
 
   void settings(int narg, char** arg) override;
   void init_style() override;
@@ -62,10 +62,11 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   void look_at(int number, bool fresh);
   void renew_candidates(int number, NearPair& p, const double* offset);
   int preselect(int number, const NearPair& p, const double* offset);
-  inline void wait(int number, const NearPair& p, const Double4& to_b, const int* ids, int count, bool may_idle);
+  inline void wait(int number, const NearPair& p, const contact::Double4& to_b, const int* ids, int count,
+                   bool may_idle);
   void not_touching(const WaitingPair& pair, int number_waiting);
   void may_idle(int number, const double* offset, double gap);
-  void search_candidates(NearPair& p, const RelativePose& pose, const double* offset);
+  void search_candidates(NearPair& p, const contact::RelativePose& pose, const double* offset);
 
   // Pairs that rest (pair_gran_cluster_rest.cpp).
   void rest();
@@ -82,27 +83,27 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   template <class Block> void fill_materials(Block& block, const WaitingPair& waiting, int first, int number);
   void fill_inertia(const WaitingPair& waiting, int number);
   template <class Block> void recall_history(Block& block);
-  template <DampingLaw law, class Block> void compute_block(Block& block, int padded);
+  template <contact::DampingLaw law, class Block> void compute_block(Block& block, int padded);
   template <class Block> void share_damping(Block& block, int padded);
   template <class Forces> void scatter(int pair, const Forces& forces);
 
-  ClusterContactWords words_;
-  FixBodies* bodies_ = nullptr;
+  ClusterContactKeywords arguments_;
+  FixClusterBodies* bodies_ = nullptr;
   std::unique_ptr<NearPairs> near_;
   std::unique_ptr<RestingPairs> resting_; ///< null unless bodies may sleep
-  CandidateSearch search_;
+  contact::CandidateSearch search_;
   std::vector<int> hits_;
   std::vector<int> awake_; ///< pairs that need a look; ~n where the candidates are no longer all that can touch
   WaitingPairs waiting_;
-  PairInBlock in_block_[ContactBlock::capacity];
-  PairBlock pairs_ = {};
+  PairInBlock in_block_[contact::ContactBlock::capacity];
+  contact::PairBlock pairs_ = {};
   int pairs_in_block_ = 0;
-  ContactBlock block_ = {};
-  std::unique_ptr<LargeContactBlock> large_block_; ///< made when a pair needs it
-  int filled_ = 0;                                 ///< contacts in the block
-  bool single_contacts_ = false;                   ///< each pair in it has one, between the centres of two spheres
-  std::vector<int> block_ids_;                     ///< their contact_id
-  std::vector<int> block_pair_;                    ///< and their pair in the block
+  contact::ContactBlock block_ = {};
+  std::unique_ptr<contact::LargeContactBlock> large_block_; ///< made when a pair needs it
+  int filled_ = 0;                                          ///< contacts in the block
+  bool single_contacts_ = false; ///< each pair in it has one, between the centres of two spheres
+  std::vector<int> block_ids_;   ///< their contact_id
+  std::vector<int> block_pair_;  ///< and their pair in the block
   /// The kinds of A and B with whose masses and materials all rows of block_ and pairs_ are filled, if they are ...
   int kind_a_ = 0, kind_b_ = 0;
   bool one_kind_ = false;
@@ -116,4 +117,4 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   int near_count_ = 0;
 };
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

@@ -14,7 +14,7 @@
 #include <string>
 #include <type_traits>
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 using namespace LAMMPS_NS;
 
@@ -27,7 +27,7 @@ constexpr int shared_each_with_each = 8;
 constexpr int interpenetrating = 8;
 
 constexpr int whole_vectors(int count) {
-  return (count + contact_width - 1) / contact_width * contact_width;
+  return (count + contact::contact_width - 1) / contact::contact_width * contact::contact_width;
 }
 
 } // namespace
@@ -44,7 +44,7 @@ void PairGranCluster::evaluate_large() {
                        "timestep/limit)")
                           .c_str());
   if (!large_block_)
-    large_block_ = std::make_unique<LargeContactBlock>();
+    large_block_ = std::make_unique<contact::LargeContactBlock>();
   large_block_->reserve(count);
   evaluate_waiting(*large_block_);
 }
@@ -56,7 +56,7 @@ void PairGranCluster::evaluate_waiting() {
 
 /// Finds the contacts of all pairs that wait, and adds their forces.
 template <class Block> void PairGranCluster::evaluate_waiting(Block& c) {
-  const std::size_t room = whole_vectors(waiting_.candidates()) + contact_width;
+  const std::size_t room = whole_vectors(waiting_.candidates()) + contact::contact_width;
   if (block_ids_.size() < room) {
     block_ids_.resize(room);
     block_pair_.resize(room);
@@ -90,10 +90,10 @@ template <class Block> void PairGranCluster::evaluate_waiting(Block& c) {
   }
   recall_history(c);
   single_contacts_ = spheres;
-  if (words_.damping == DampingLaw::stock)
-    compute_block<DampingLaw::stock>(c, padded);
+  if (arguments_.damping == contact::DampingLaw::stock)
+    compute_block<contact::DampingLaw::stock>(c, padded);
   else
-    compute_block<DampingLaw::paper>(c, padded);
+    compute_block<contact::DampingLaw::paper>(c, padded);
   ContactList& next = near_->next;
   next.id.insert(next.id.end(), block_ids_.data(), block_ids_.data() + filled_);
   for (int k = 0; k < 3; ++k)
@@ -103,7 +103,7 @@ template <class Block> void PairGranCluster::evaluate_waiting(Block& c) {
       scatter(n, c);
     return;
   }
-  add_contact_forces(c, block_pair_.data(), filled_, pairs_, pairs_in_block_);
+  contact::add_contact_forces(c, block_pair_.data(), filled_, pairs_, pairs_in_block_);
   for (int n = 0; n < pairs_in_block_; ++n)
     scatter(n, pairs_);
 }
@@ -118,11 +118,13 @@ template <class Block> void PairGranCluster::find_contacts(Block& c) {
   for (int n = 0; n < count; ++n) {
     const int id = ids[n];
     WaitingPair& p = waiting_.pair(pair_of[n]);
-    const Double4 *turn_a = p.a->column, *turn_b = p.b->column;
-    const Double4 sphere_a = p.spheres_a[contact_sphere_a(id)], sphere_b = p.spheres_b[contact_sphere_b(id)];
-    const Double4 arm = turn_a[0] * sphere_a[0] + turn_a[1] * sphere_a[1] + turn_a[2] * sphere_a[2];
-    const Double4 from_b = turn_b[0] * sphere_b[0] + turn_b[1] * sphere_b[1] + turn_b[2] * sphere_b[2] + p.to_b;
-    const Double4 separation = arm - from_b, square = separation * separation;
+    const contact::Double4 *turn_a = p.a->column, *turn_b = p.b->column;
+    const contact::Double4 sphere_a = p.spheres_a[contact::contact_sphere_a(id)],
+                           sphere_b = p.spheres_b[contact::contact_sphere_b(id)];
+    const contact::Double4 arm = turn_a[0] * sphere_a[0] + turn_a[1] * sphere_a[1] + turn_a[2] * sphere_a[2];
+    const contact::Double4 from_b =
+        turn_b[0] * sphere_b[0] + turn_b[1] * sphere_b[1] + turn_b[2] * sphere_b[2] + p.to_b;
+    const contact::Double4 separation = arm - from_b, square = separation * separation;
     const double ra = sphere_a[3] + p.extra_a, rb = sphere_b[3] + p.extra_b;
     const double excess = square[0] + square[1] + square[2] - (ra + rb) * (ra + rb);
     for (int k = 0; k < 3; ++k) {
@@ -146,7 +148,7 @@ template <class Block> void PairGranCluster::find_contacts_of_spheres(Block& c) 
   int m = 0;
   for (int n = 0; n < waiting_.count(); ++n) {
     WaitingPair& p = waiting_.pair(n);
-    const Double4 separation = -p.to_b, square = separation * separation;
+    const contact::Double4 separation = -p.to_b, square = separation * separation;
     const double ra = p.spheres_a[0][3] + p.extra_a, rb = p.spheres_b[0][3] + p.extra_b;
     const double excess = square[0] + square[1] + square[2] - (ra + rb) * (ra + rb);
     for (int k = 0; k < 3; ++k) {
@@ -155,7 +157,7 @@ template <class Block> void PairGranCluster::find_contacts_of_spheres(Block& c) 
     }
     c.radius_a[m] = ra;
     c.radius_b[m] = rb;
-    block_ids[m] = contact_id(0, 0);
+    block_ids[m] = contact::contact_id(0, 0);
     excesses[n] = excess;
     m += excess < 0;
     p.last_contact = m;
@@ -165,7 +167,7 @@ template <class Block> void PairGranCluster::find_contacts_of_spheres(Block& c) 
 
 /// Adds what the contacts of a pair, which begin at `first`, have in common.
 template <class Block> void PairGranCluster::add_pair(Block& c, const WaitingPair& waiting, int first) {
-  const BodyState &body_a = *waiting.a, &body_b = *waiting.b;
+  const contact::BodyState &body_a = *waiting.a, &body_b = *waiting.b;
   const double *va = body_a.v, *vb = body_b.v, *wa = body_a.omega, *wb = body_b.omega;
   const double offset[3] = {waiting.to_b[0], waiting.to_b[1], waiting.to_b[2]};
   // Of B's matter, were it at A's centre.
@@ -174,8 +176,8 @@ template <class Block> void PairGranCluster::add_pair(Block& c, const WaitingPai
                               va[2] - vb[2] + (wb[0] * offset[1] - wb[1] * offset[0])};
   const double spin[3] = {wa[0] - wb[0], wa[1] - wb[1], wa[2] - wb[2]};
   const int number = pairs_in_block_++, last = waiting.last_contact;
-  for (int start = first; start < last; start += contact_width)
-    for (int k = 0; k < contact_width; ++k) {
+  for (int start = first; start < last; start += contact::contact_width)
+    for (int k = 0; k < contact::contact_width; ++k) {
       const int n = start + k;
       c.velocity[0][n] = velocity[0];
       c.velocity[1][n] = velocity[1];
@@ -186,7 +188,7 @@ template <class Block> void PairGranCluster::add_pair(Block& c, const WaitingPai
       block_pair_[n] = number;
     }
   // As a rule all bodies have the same mass and material: then what is there from the last block will do.
-  constexpr bool large = !std::is_same_v<Block, ContactBlock>;
+  constexpr bool large = !std::is_same_v<Block, contact::ContactBlock>;
   const NearPair& near = near_->pairs[waiting.number];
   const bool there = !large && one_kind_ && near_->kind(near.a) == kind_a_ && near_->kind(near.b) == kind_b_;
   if (!there)
@@ -210,8 +212,8 @@ template <class Block> void PairGranCluster::add_pair(Block& c, const WaitingPai
 /// Masses and materials of a pair; at the start of a block for the whole of it: maybe the next pairs are like this one.
 template <class Block>
 void PairGranCluster::fill_materials(Block& c, const WaitingPair& waiting, int first, int number) {
-  constexpr bool large = !std::is_same_v<Block, ContactBlock>;
-  const BodyState &a = *waiting.a, &b = *waiting.b;
+  constexpr bool large = !std::is_same_v<Block, contact::ContactBlock>;
+  const contact::BodyState &a = *waiting.a, &b = *waiting.b;
   double mass = a.mass * b.mass / (a.mass + b.mass);
   if (a.held)
     mass = b.mass;
@@ -222,7 +224,7 @@ void PairGranCluster::fill_materials(Block& c, const WaitingPair& waiting, int f
   one_kind_ = !large && number == 0;
   kind_a_ = near_->kind(near_->pairs[waiting.number].a);
   kind_b_ = near_->kind(near_->pairs[waiting.number].b);
-  const int last = one_kind_ ? ContactBlock::capacity + contact_width : waiting.last_contact;
+  const int last = one_kind_ ? contact::ContactBlock::capacity + contact::contact_width : waiting.last_contact;
   for (int n = first; n < last; ++n) {
     c.mass[n] = mass;
     c.youngs[n] = youngs;
@@ -231,7 +233,7 @@ void PairGranCluster::fill_materials(Block& c, const WaitingPair& waiting, int f
     c.friction[n] = friction;
     c.share[n] = 1;
   }
-  const int last_pair = one_kind_ ? ContactBlock::capacity : number + 1;
+  const int last_pair = one_kind_ ? contact::ContactBlock::capacity : number + 1;
   std::fill(pairs_.ease_a + number, pairs_.ease_a + last_pair, a.held && !b.held ? 0 : b.mass);
   std::fill(pairs_.ease_b + number, pairs_.ease_b + last_pair, b.held && !a.held ? 0 : a.mass);
 }
@@ -240,7 +242,7 @@ void PairGranCluster::fill_materials(Block& c, const WaitingPair& waiting, int f
 void PairGranCluster::fill_inertia(const WaitingPair& waiting, int number) {
   const NearPair& p = near_->pairs[waiting.number];
   one_inertia_ = one_kind_ && number == 0 && p.surface_a->equal_moments && p.surface_b->equal_moments;
-  const int last = one_inertia_ ? ContactBlock::capacity : number + 1;
+  const int last = one_inertia_ ? contact::ContactBlock::capacity : number + 1;
   const double *inverse_a = waiting.a->inverse_inertia, *inverse_b = waiting.b->inverse_inertia;
   for (int k = 0; k < 6; ++k) {
     std::fill(pairs_.inverse_a[k] + number, pairs_.inverse_a[k] + last, inverse_a[k]);
@@ -277,26 +279,26 @@ template <class Block> void PairGranCluster::recall_history(Block& c) {
   }
 }
 
-template <DampingLaw law, class Block> void PairGranCluster::compute_block(Block& block, int padded) {
-  contact_geometry(block, padded);
-  if (words_.sharing == ContactSharing::shared) {
+template <contact::DampingLaw law, class Block> void PairGranCluster::compute_block(Block& block, int padded) {
+  contact::contact_geometry(block, padded);
+  if (arguments_.sharing == ContactSharing::shared) {
     if (single_contacts_)
       std::fill_n(&block.share[0], padded, 1.);
     else
       share_damping(block, padded);
   }
-  if (words_.tangential_damping)
-    contact_forces<law, true>(block, padded, update->dt, advance_);
+  if (arguments_.tangential_damping)
+    contact::contact_forces<law, true>(block, padded, update->dt, advance_);
   else
-    contact_forces<law, false>(block, padded, update->dt, advance_);
+    contact::contact_forces<law, false>(block, padded, update->dt, advance_);
 }
 
 /// Contacts of the same two bodies have one damper between them, tuned to the mass that they feel.
 template <class Block> void PairGranCluster::share_damping(Block& c, int padded) {
-  start_shared_sums(c, padded);
-  start_off_centre_sums(c, padded);
+  contact::start_shared_sums(c, padded);
+  contact::start_off_centre_sums(c, padded);
   bool any_with_many = false;
-  add_off_centre_sums(c, block_pair_.data(), filled_, pairs_, pairs_in_block_);
+  contact::add_off_centre_sums(c, block_pair_.data(), filled_, pairs_, pairs_in_block_);
   for (int n = 0; n < pairs_in_block_; ++n) {
     const PairInBlock& p = in_block_[n];
     if (p.last - p.first > shared_each_with_each) {
@@ -305,20 +307,20 @@ template <class Block> void PairGranCluster::share_damping(Block& c, int padded)
     }
     for (int j = p.first; j < p.last; ++j)
       for (int k = j + 1; k < p.last; ++k)
-        add_shared_pair(c, j, k);
+        contact::add_shared_pair(c, j, k);
   }
-  finish_shared_sums(c, padded);
+  contact::finish_shared_sums(c, padded);
   for (int n = 0; any_with_many && n < pairs_in_block_; ++n) {
     const PairInBlock& p = in_block_[n];
     if (p.last - p.first <= shared_each_with_each)
       continue;
-    SharedStiffness all;
+    contact::SharedStiffness all;
     for (int m = p.first; m < p.last; ++m)
       all.add(c.contact_radius[m], c.overlap[m], c.normal[0][m], c.normal[1][m], c.normal[2][m]);
     for (int m = p.first; m < p.last; ++m)
       c.share[m] = all.damping_share(c.contact_radius[m], c.normal[0][m], c.normal[1][m], c.normal[2][m]);
   }
-  off_centre_factors(pairs_, whole_vectors(pairs_in_block_));
+  contact::off_centre_factors(pairs_, whole_vectors(pairs_in_block_));
   for (int m = 0; m < filled_; ++m)
     c.share[m] *= pairs_.factor[block_pair_[m]];
 }
@@ -329,13 +331,13 @@ template <class Forces> void PairGranCluster::scatter(int pair, const Forces& fo
   const double fx = forces.force[0][pair], fy = forces.force[1][pair], fz = forces.force[2][pair];
   const double tx = forces.torque[0][pair], ty = forces.torque[1][pair], tz = forces.torque[2][pair];
   const double d[3] = {pairs_.offset[0][pair], pairs_.offset[1][pair], pairs_.offset[2][pair]};
-  BodyForce &a = near_->force(p.a), &b = near_->force(p.b);
-  a.force += Double4{fx, fy, fz, 0};
-  a.torque += Double4{tx, ty, tz, 0};
-  b.force -= Double4{fx, fy, fz, 0};
-  b.torque += Double4{d[1] * fz - d[2] * fy - tx, d[2] * fx - d[0] * fz - ty, d[0] * fy - d[1] * fx - tz, 0};
+  contact::BodyForce &a = near_->force(p.a), &b = near_->force(p.b);
+  a.force += contact::Double4{fx, fy, fz, 0};
+  a.torque += contact::Double4{tx, ty, tz, 0};
+  b.force -= contact::Double4{fx, fy, fz, 0};
+  b.torque += contact::Double4{d[1] * fz - d[2] * fy - tx, d[2] * fx - d[0] * fz - ty, d[0] * fy - d[1] * fx - tz, 0};
   if (evflag)
     ev_tally_xyz(p.a, p.b, atom->nlocal, 0, 0., 0., fx, fy, fz, -d[0], -d[1], -d[2]);
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <limits>
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 using namespace LAMMPS_NS;
 
@@ -83,8 +83,8 @@ void PairGranCluster::compute_force(int eflag, int vflag, int addflag) {
 }
 
 /// Lets a pair wait with its `count` possible contacts, and evaluates all that wait once they are enough.
-inline void PairGranCluster::wait(int number, const NearPair& p, const Double4& to_b, const int* ids, int count,
-                                  bool may_idle) {
+inline void PairGranCluster::wait(int number, const NearPair& p, const contact::Double4& to_b, const int* ids,
+                                  int count, bool may_idle) {
   if (!waiting_.has_room(count))
     evaluate_waiting();
   WaitingPair& pair = waiting_.add(p.direct(), ids, count);
@@ -106,9 +106,9 @@ inline void PairGranCluster::wait(int number, const NearPair& p, const Double4& 
 /// Lets a pair of bodies wait for the exact test of its candidates. `fresh`: they are still all that can touch.
 void PairGranCluster::look_at(int number, bool fresh) {
   NearPair& p = near_->pairs[number];
-  const Double4 to_b = near_->offset(p);
+  const contact::Double4 to_b = near_->offset(p);
   if (p.direct()) {
-    static constexpr int only[CandidateStore::chunk] = {contact_id(0, 0)};
+    static constexpr int only[contact::CandidateStore::chunk] = {contact::contact_id(0, 0)};
     wait(number, p, to_b, only, 1, true);
     return;
   }
@@ -135,7 +135,7 @@ void PairGranCluster::renew_candidates(int number, NearPair& p, const double* of
       return;
     }
   }
-  const RelativePose pose(near_->body(p.a), near_->body(p.b), offset);
+  const contact::RelativePose pose(near_->body(p.a), near_->body(p.b), offset);
   float left = 0;
   if (p.skin > 0)
     left = p.skin - pose.moved_since(near_->searches[p.search].pose, static_cast<float>(p.bound_b()));
@@ -148,16 +148,16 @@ void PairGranCluster::renew_candidates(int number, NearPair& p, const double* of
 
 /// Puts those candidates of a pair that seem to touch in single precision into hits_; returns how many.
 int PairGranCluster::preselect(int number, const NearPair& p, const double* offset) {
-  const RelativePose pose(near_->body(p.a), near_->body(p.b), offset);
+  const contact::RelativePose pose(near_->body(p.a), near_->body(p.b), offset);
   const int* candidates = near_->candidates.at(p.candidate_first);
   const int count = p.candidate_count;
-  const PosedShapes shapes = {*p.surface_a, *p.surface_b, static_cast<float>(p.extra_a + p.extra_b), pose};
-  if (static_cast<int>(hits_.size()) < count + CandidateStore::chunk)
-    hits_.resize(2 * count + CandidateStore::chunk);
-  const int hits =
-      overlapping_candidates(shapes, candidates, count, static_cast<float>(round_off * p.range()), hits_.data());
+  const contact::PosedShapes shapes = {*p.surface_a, *p.surface_b, static_cast<float>(p.extra_a + p.extra_b), pose};
+  if (static_cast<int>(hits_.size()) < count + contact::CandidateStore::chunk)
+    hits_.resize(2 * count + contact::CandidateStore::chunk);
+  const int hits = contact::overlapping_candidates(shapes, candidates, count, static_cast<float>(round_off * p.range()),
+                                                   hits_.data());
   if (hits == 0)
-    may_idle(number, offset, least_gap(shapes, candidates, count));
+    may_idle(number, offset, contact::min_gap(shapes, candidates, count));
   return hits;
 }
 
@@ -193,15 +193,15 @@ void PairGranCluster::may_idle(int number, const double* offset, double gap) {
 }
 
 /// Finds the pairs of sub-spheres that can touch soon, with a skin that suits how fast the bodies move past each other.
-void PairGranCluster::search_candidates(NearPair& p, const RelativePose& pose, const double* offset) {
-  CandidateStore& store = near_->candidates;
+void PairGranCluster::search_candidates(NearPair& p, const contact::RelativePose& pose, const double* offset) {
+  contact::CandidateStore& store = near_->candidates;
   const float extra_a = static_cast<float>(p.extra_a), extra_b = static_cast<float>(p.extra_b);
   const double smallest = std::min(p.surface_a->smallest_radius + p.extra_a, p.surface_b->smallest_radius + p.extra_b);
   const double motion = update->dt * near_->relative_speed(p, offset);
   const float skin =
       static_cast<float>(std::clamp(skin_steps * motion, skin_narrowest * smallest, skin_widest * smallest));
   const float margin = static_cast<float>(2 * round_off * p.range());
-  const SearchResult found = search_.search(*p.surface_a, extra_a, *p.surface_b, extra_b, pose, skin + margin);
+  const contact::SearchResult found = search_.search(*p.surface_a, extra_a, *p.surface_b, extra_b, pose, skin + margin);
   if (p.search == NearPair::not_yet) {
     std::vector<PairSearch>& searches = near_->searches;
     p.search = static_cast<int>(searches.size());
@@ -221,4 +221,4 @@ void PairGranCluster::search_candidates(NearPair& p, const RelativePose& pose, c
   std::copy(search_.found().begin(), search_.found().end(), store.at(p.candidate_first));
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

@@ -7,7 +7,7 @@
 
 #include <utility>
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 /// Before the loop over all pairs: those that rest from now on are evaluated and leave it, others come back.
 void PairGranCluster::rest() {
@@ -32,9 +32,9 @@ RestingPairs::Kept PairGranCluster::evaluate_alone(int n) {
   for (int k = 0; k < 3; ++k)
     kept.offset[k] = near_->body(p.b).x[k] - near_->body(p.a).x[k];
   const int bodies[2] = {p.a, p.b};
-  BodyForce before[2];
+  contact::BodyForce before[2];
   for (int s = 0; s < 2; ++s)
-    before[s] = std::exchange(near_->force(bodies[s]), BodyForce());
+    before[s] = std::exchange(near_->force(bodies[s]), contact::BodyForce());
   ContactList& next = near_->next;
   const int before_it = next.size();
   look_at(n, false);
@@ -48,7 +48,7 @@ RestingPairs::Kept PairGranCluster::evaluate_alone(int n) {
   for (auto& d : next.displacement)
     d.resize(d.size() - count);
   for (int s = 0; s < 2; ++s) {
-    const BodyForce acting = std::exchange(near_->force(bodies[s]), before[s]);
+    const contact::BodyForce acting = std::exchange(near_->force(bodies[s]), before[s]);
     std::array<double, 6>& on = s == 0 ? kept.on_a : kept.on_b;
     for (int k = 0; k < 3; ++k) {
       on[k] = acting.force[k];
@@ -73,4 +73,4 @@ void PairGranCluster::add_resting_forces() {
     });
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 void RestingPairs::keep(Kept kept) {
   if (free_slots_.empty()) {
@@ -164,4 +164,4 @@ void RestingPairs::release(NearPairs& near) {
   contact_count_ = 0;
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 /// A body rests in a step if its velocity and spin are exactly 0, as fix sleep/cluster leaves them. That is known of
 /// ghosts, too, so ranks agree without a message. A pair that rests leaves the list of contacts; as soon as one of its
@@ -67,4 +67,4 @@ class RestingPairs {
   int contact_count_ = 0;
 };
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

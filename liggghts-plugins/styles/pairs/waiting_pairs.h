@@ -10,25 +10,25 @@
 #include <cstring>
 #include <vector>
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 /// What the exact test asks of a pair, together.
 struct WaitingPair {
-  Double4 to_b; ///< from A's centre to B's [m]; fourth lane: anything
-  const BodyState *a, *b;
-  const Double4 *spheres_a, *spheres_b; ///< of their shapes
-  double extra_a, extra_b;              ///< added to radii [m]
-  int number;                           ///< of the pair
-  bool may_idle;                        ///< all that is near waits here: if nothing touches, the pair may rest
-  int last_candidate;                   ///< one past its last among those that wait
-  int last_contact;                     ///< the same among those of them that touch, once known
+  contact::Double4 to_b; ///< from A's centre to B's [m]; fourth lane: anything
+  const contact::BodyState *a, *b;
+  const contact::Double4 *spheres_a, *spheres_b; ///< of their shapes
+  double extra_a, extra_b;                       ///< added to radii [m]
+  int number;                                    ///< of the pair
+  bool may_idle;                                 ///< all that is near waits here: if nothing touches, the pair may rest
+  int last_candidate;                            ///< one past its last among those that wait
+  int last_contact;                              ///< the same among those of them that touch, once known
 };
 
 /// Pairs in the order in which they came, with their candidates one after the other.
 class WaitingPairs {
  public:
   /// Of single pairs more may wait, alone.
-  static constexpr int capacity = ContactBlock::capacity;
+  static constexpr int capacity = contact::ContactBlock::capacity;
   /// So many are evaluated together: enough to fill vectors, few enough to stay in the first-level cache.
   static constexpr int enough = 32;
 
@@ -43,7 +43,7 @@ class WaitingPairs {
   /// memory and read back before it has arrived there). `ids`: the contact_id of its candidates, readable up to the
   /// next multiple of CandidateStore::chunk.
   WaitingPair& add(bool direct, const int* ids, int count) {
-    constexpr int chunk = CandidateStore::chunk;
+    constexpr int chunk = contact::CandidateStore::chunk;
     const std::size_t room = candidates_ + count + chunk;
     if (ids_.size() < room) {
       ids_.resize(room);
@@ -79,4 +79,4 @@ class WaitingPairs {
   std::vector<double> excess_;
 };
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <string>
 
-namespace eccentra::rolling {
+namespace eccentra::styles {
 namespace {
 
 MatrixProperty* create(PropertyRegistry& registry, const char* name, const char* caller) {
@@ -50,4 +50,4 @@ MatrixProperty* create_shape_coefficient(PropertyRegistry& registry, const char*
   return create(registry, "shapeRollingFriction", caller);
 }
 
-} // namespace eccentra::rolling
+} // namespace eccentra::styles

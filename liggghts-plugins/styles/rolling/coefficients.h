@@ -7,11 +7,11 @@
 
 #include "property_registry.h"
 
-namespace eccentra::rolling {
+namespace eccentra::styles {
 
 /// mu_r (coefficientRollingFriction) and mu_shape (shapeRollingFriction), per pair of atom types, both >= 0. A missing
 /// fix or a value below zero stops all ranks with one sentence.
 MatrixProperty* create_rolling_coefficient(PropertyRegistry& registry, const char* caller, bool sanity_checks);
 MatrixProperty* create_shape_coefficient(PropertyRegistry& registry, const char* caller, bool sanity_checks);
 
-} // namespace eccentra::rolling
+} // namespace eccentra::styles

@@ -14,15 +14,15 @@
 #include <cstring>
 #include <string>
 
-namespace eccentra::rolling {
+namespace eccentra::styles {
 namespace {
 
 constexpr char kStyle[] = "rolling/limited";
 constexpr char kId[] = "eccentra_rolling_limited";
 constexpr double kSphereInertia = 0.4; ///< I = 2/5 m r^2, as fix nve/sphere integrates
 
-const host::RegisterFix<FixRollingLimited> registration(kStyle,
-                                                        "torques of rolling_friction shape (made by the model)");
+const styles::RegisterFix<FixRollingLimited> registration(kStyle,
+                                                          "torques of rolling_friction shape (made by the model)");
 
 } // namespace
 
@@ -38,8 +38,8 @@ FixRollingLimited* FixRollingLimited::find(LAMMPS_NS::LAMMPS* lmp) {
 FixRollingLimited* FixRollingLimited::make_last(LAMMPS_NS::LAMMPS* lmp) {
   LAMMPS_NS::Modify& modify = *lmp->modify;
   if (!find(lmp)) {
-    std::string words[] = {kId, "all", kStyle};
-    char* arg[] = {words[0].data(), words[1].data(), words[2].data()};
+    std::string arguments[] = {kId, "all", kStyle};
+    char* arg[] = {arguments[0].data(), arguments[1].data(), arguments[2].data()};
     modify.add_fix(3, arg);
   }
   for (int k = 0; k + 1 < modify.nfix; ++k) {
@@ -114,7 +114,7 @@ void FixRollingLimited::post_force(int) {
 int FixRollingLimited::pack_comm(int n, int* list, double* buffer, int, int*) {
   double* out = buffer;
   for (int k = 0; k < n; ++k) {
-    const TrialSpin& trial = trial_[list[k]];
+    const contact::TrialSpin& trial = trial_[list[k]];
     *out++ = trial.spin[0];
     *out++ = trial.spin[1];
     *out++ = trial.spin[2];
@@ -129,7 +129,7 @@ void FixRollingLimited::unpack_comm(int n, int first, double* buffer) {
 }
 
 double FixRollingLimited::memory_usage() {
-  return static_cast<double>(trial_.capacity() * sizeof(TrialSpin));
+  return static_cast<double>(trial_.capacity() * sizeof(contact::TrialSpin));
 }
 
-} // namespace eccentra::rolling
+} // namespace eccentra::styles

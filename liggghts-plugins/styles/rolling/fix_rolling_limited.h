@@ -13,7 +13,7 @@
 
 #include <vector>
 
-namespace eccentra::rolling {
+namespace eccentra::styles {
 
 class FixRollingLimited : public LAMMPS_NS::Fix {
  public:
@@ -25,7 +25,7 @@ class FixRollingLimited : public LAMMPS_NS::Fix {
   /// others.
   static FixRollingLimited* make_last(LAMMPS_NS::LAMMPS* lmp);
 
-  RollingLimiter& limiter() { return limiter_; }
+  contact::RollingLimiter& limiter() { return limiter_; }
 
   int setmask() override;
   void init() override;
@@ -40,10 +40,10 @@ class FixRollingLimited : public LAMMPS_NS::Fix {
  private:
   bool rotates(int mask) const { return (mask & rotating_groups_) && !(mask & frozen_group_); }
 
-  RollingLimiter limiter_;
-  std::vector<TrialSpin> trial_;
+  contact::RollingLimiter limiter_;
+  std::vector<contact::TrialSpin> trial_;
   int rotating_groups_ = 0; ///< groups of the fixes that integrate; a particle of no such group has a fixed spin
   int frozen_group_ = 0;
 };
 
-} // namespace eccentra::rolling
+} // namespace eccentra::styles

@@ -15,7 +15,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace eccentra::rolling {
+namespace eccentra::styles {
 namespace {
 
 constexpr char kStyle[] = "rolling/orientation";
@@ -23,7 +23,7 @@ constexpr char kId[] = "eccentra_rolling_orientation";
 constexpr char kProperty[] = "eccentricOrientation";
 constexpr double kUnitDiameter = 2.0; ///< R_eq = 1
 
-const host::RegisterFix<FixSphereOrientation>
+const styles::RegisterFix<FixSphereOrientation>
     registration(kStyle, "orientation of rolling_friction eccentric (made by the model)");
 
 Eigen::Quaterniond random_orientation(long seed, int tag) {
@@ -45,31 +45,31 @@ FixSphereOrientation* FixSphereOrientation::find(LAMMPS_NS::LAMMPS* lmp) {
   return dynamic_cast<FixSphereOrientation*>(lmp->modify->find_fix_id(kId));
 }
 
-FixSphereOrientation* FixSphereOrientation::make(LAMMPS_NS::LAMMPS* lmp, const std::vector<std::string>& shape_words,
+FixSphereOrientation* FixSphereOrientation::make(LAMMPS_NS::LAMMPS* lmp, const std::vector<std::string>& shape_keywords,
                                                  long seed) {
   if (!lmp->modify->find_fix_id(kProperty)) {
-    std::string words[] = {kProperty, "all", "property/atom", kProperty, "vector", "yes", "no", "no", "0", "0",
-                           "0",       "0"};
-    constexpr int n = sizeof(words) / sizeof(words[0]);
+    std::string arguments[] = {kProperty, "all", "property/atom", kProperty, "vector", "yes", "no", "no", "0", "0",
+                               "0",       "0"};
+    constexpr int n = sizeof(arguments) / sizeof(arguments[0]);
     char* arg[n];
     for (int k = 0; k < n; ++k)
-      arg[k] = words[k].data();
+      arg[k] = arguments[k].data();
     lmp->modify->add_fix(n, arg);
   }
   if (!find(lmp)) {
-    std::string words[] = {kId, "all", kStyle};
-    char* arg[] = {words[0].data(), words[1].data(), words[2].data()};
+    std::string arguments[] = {kId, "all", kStyle};
+    char* arg[] = {arguments[0].data(), arguments[1].data(), arguments[2].data()};
     lmp->modify->add_fix(3, arg);
   }
   FixSphereOrientation* const fix = find(lmp);
   fix->property_ = dynamic_cast<LAMMPS_NS::FixPropertyAtom*>(lmp->modify->find_fix_id(kProperty));
   fix->seed_ = seed;
-  if (fix->shape_ && fix->shape_words_ == shape_words)
+  if (fix->shape_ && fix->shape_keywords_ == shape_keywords)
     return fix;
-  fix->shape_words_ = shape_words;
+  fix->shape_keywords_ = shape_keywords;
   try {
     std::size_t used = 0;
-    fix->shape_ = std::make_unique<SupportTable>(shape::make_shape(shape_words, 0, used, kUnitDiameter));
+    fix->shape_ = std::make_unique<contact::SupportTable>(shape::make_shape(shape_keywords, 0, used, kUnitDiameter));
   } catch (const std::invalid_argument& problem) {
     lmp->error->all(FLERR, (std::string("rolling_friction eccentric: ") + problem.what()).c_str());
   }
@@ -129,4 +129,4 @@ void FixSphereOrientation::pre_force(int) {
     orient_new_spheres();
 }
 
-} // namespace eccentra::rolling
+} // namespace eccentra::styles

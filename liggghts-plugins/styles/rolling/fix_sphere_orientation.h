@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace eccentra::rolling {
+namespace eccentra::styles {
 
 /// Orientations are the per-atom property `eccentricOrientation` (w x y z, body to world): it migrates, restarts and
 /// can be dumped as f_eccentricOrientation[1..4]. A sphere that has none yet gets one at random,
@@ -27,12 +27,13 @@ class FixSphereOrientation : public LAMMPS_NS::Fix {
   FixSphereOrientation(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
 
   static FixSphereOrientation* find(LAMMPS_NS::LAMMPS* lmp);
-  /// The scene's instance, made if need be, with this shape (words as particletemplate/cluster takes them) and seed.
-  static FixSphereOrientation* make(LAMMPS_NS::LAMMPS* lmp, const std::vector<std::string>& shape_words, long seed);
+  /// The scene's instance, made if need be, with this shape (arguments as particletemplate/cluster takes them) and
+  /// seed.
+  static FixSphereOrientation* make(LAMMPS_NS::LAMMPS* lmp, const std::vector<std::string>& shape_keywords, long seed);
 
   /// Orientation (w x y z, body to world) of an atom of this rank, valid from pre_force on.
   const double* orientation(int i) const { return property_->array_atom[i]; }
-  const SupportTable& shape() const { return *shape_; }
+  const contact::SupportTable& shape() const { return *shape_; }
 
   int setmask() override;
   /// Stops with a sentence where no model has made this fix.
@@ -44,10 +45,10 @@ class FixSphereOrientation : public LAMMPS_NS::Fix {
  private:
   void orient_new_spheres();
 
-  std::vector<std::string> shape_words_;
-  std::unique_ptr<SupportTable> shape_;
+  std::vector<std::string> shape_keywords_;
+  std::unique_ptr<contact::SupportTable> shape_;
   LAMMPS_NS::FixPropertyAtom* property_ = nullptr;
   long seed_ = 0;
 };
 
-} // namespace eccentra::rolling
+} // namespace eccentra::styles

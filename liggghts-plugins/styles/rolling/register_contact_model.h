@@ -19,7 +19,7 @@
 #include "pair_gran_base.h"
 #include "update.h"
 
-namespace eccentra::rolling {
+namespace eccentra::styles {
 
 /// A static object of this type announces Hertz contacts with tangential history and the rolling model `Rolling`.
 template <int Rolling> struct RegisterHertzHistory {
@@ -45,4 +45,4 @@ template <int Rolling> struct RegisterHertzHistory {
   }
 };
 
-} // namespace eccentra::rolling
+} // namespace eccentra::styles

@@ -10,7 +10,7 @@ ROLLING_MODEL(ROLLING_ECCENTRIC, eccentric, 21)
 #include "contact_models.h"
 
 #include "contact/eccentric_batch.h"
-#include "styles/rolling/contact_words.h"
+#include "styles/rolling/contact_keywords.h"
 #include "styles/rolling/fix_sphere_orientation.h"
 #include "styles/rolling/wall_spin.h"
 
@@ -30,7 +30,7 @@ template <> class RollingModel<ROLLING_ECCENTRIC> : public RollingModelBase {
       : RollingModelBase(lmp, history, contact_model), is_wall_(contact_model->is_wall()), wall_spin_(history) {}
 
   void registerSettings(Settings& settings) {
-    eccentra::rolling::register_shape_words(settings, shape_words_);
+    eccentra::styles::register_shape_keywords(settings, shape_keywords_);
     settings.registerOnOff("rockingDamping", damped_, true);
     settings.registerDoubleSetting("orientationSeed", seed_, 1.0);
   }
@@ -38,11 +38,11 @@ template <> class RollingModel<ROLLING_ECCENTRIC> : public RollingModelBase {
   inline void postSettings(IContactHistorySetup*, ContactModelBase*) {}
 
   void connectToProperties(PropertyRegistry&) {
-    using eccentra::rolling::FixSphereOrientation;
+    using eccentra::styles::FixSphereOrientation;
     if (force->cg_active())
       error->cg(FLERR, "rolling_friction eccentric");
     if (is_wall_) {
-      if (!shape_words_.empty())
+      if (!shape_keywords_.empty())
         error->all(
             FLERR,
             "rolling_friction eccentric: the shape belongs to the particles: give 'shape ...' in pair_style, not "
@@ -55,12 +55,12 @@ template <> class RollingModel<ROLLING_ECCENTRIC> : public RollingModelBase {
                    "rolling_friction eccentric shape ..., too");
       return;
     }
-    if (shape_words_.empty())
+    if (shape_keywords_.empty())
       error->all(
           FLERR,
           "rolling_friction eccentric needs a shape: add, for example, 'shape cube 64' to the pair_style line (again "
           "after read_restart)");
-    spheres_ = FixSphereOrientation::make(lmp, shape_words_, static_cast<long>(seed_));
+    spheres_ = FixSphereOrientation::make(lmp, shape_keywords_, static_cast<long>(seed_));
     pair_ = static_cast<LAMMPS_NS::PairGran*>(force->pair_match("gran", 0));
   }
 
@@ -100,15 +100,15 @@ template <> class RollingModel<ROLLING_ECCENTRIC> : public RollingModelBase {
   /// Torque on one particle; `outward` points from the partner to it, the direction of the normal force on it.
   void add_now(const SurfacesIntersectData& contact, int particle, double radius, const double* outward,
                const double* spin, ForceData& on_particle) const {
-    using namespace eccentra::rolling;
+    using namespace eccentra::styles;
     const Eigen::Map<const Eigen::Vector3d> n(outward);
     const double* const q = spheres_->orientation(particle);
     // T = R (sum of c times its force) x n; the dashpot acts on the normal velocity that the spin gives the
     // sub-spheres.
-    const ContactLoad load{contact.Fn, damped_ ? contact.gamman * radius : 0.0,
-                           n.cross(Eigen::Map<const Eigen::Vector3d>(spin))};
-    const Eigen::Vector3d moment =
-        turned_moment(spheres_->shape(), {q[0], q[1], q[2], q[3]}, -n, contact.deltan / radius, load);
+    const eccentra::contact::ContactLoad load{contact.Fn, damped_ ? contact.gamman * radius : 0.0,
+                                              n.cross(Eigen::Map<const Eigen::Vector3d>(spin))};
+    const Eigen::Vector3d moment = eccentra::contact::turned_moment(spheres_->shape(), {q[0], q[1], q[2], q[3]}, -n,
+                                                                    contact.deltan / radius, load);
     const Eigen::Vector3d torque = radius * moment.cross(n);
     for (int k = 0; k < 3; ++k)
       on_particle.delta_torque[k] += torque[k];
@@ -134,12 +134,12 @@ template <> class RollingModel<ROLLING_ECCENTRIC> : public RollingModelBase {
   bool is_wall_;
   bool damped_ = true;
   double seed_ = 1.0;
-  std::vector<std::string> shape_words_;
-  eccentra::rolling::FixSphereOrientation* spheres_ = nullptr;
-  eccentra::rolling::WallSpin wall_spin_;
+  std::vector<std::string> shape_keywords_;
+  eccentra::styles::FixSphereOrientation* spheres_ = nullptr;
+  eccentra::styles::WallSpin wall_spin_;
   LAMMPS_NS::PairGran* pair_ = nullptr;
   bool torques_are_read_ = false; ///< by what looks at single contacts: each must have its torque at once
-  eccentra::rolling::EccentricBatch batch_;
+  eccentra::contact::EccentricBatch batch_;
 };
 
 } // namespace ContactModels

@@ -10,7 +10,7 @@ ROLLING_MODEL(ROLLING_SHAPE, shape, 20)
 
 #include "contact/rolling_torque.h"
 #include "styles/rolling/coefficients.h"
-#include "styles/rolling/contact_words.h"
+#include "styles/rolling/contact_keywords.h"
 #include "styles/rolling/fix_rolling_limited.h"
 #include "styles/rolling/wall_spin.h"
 
@@ -30,9 +30,8 @@ template <> class RollingModel<ROLLING_SHAPE> : public RollingModelBase {
       : RollingModelBase(lmp, history, contact_model), is_wall_(contact_model->is_wall()), wall_spin_(history) {}
 
   void registerSettings(Settings& settings) {
-    eccentra::rolling::register_option(
-        settings, kName, "form", form_,
-        {{"limited", kLimited}, {"directional", kDirectional}, {"epsd", kSpringDashpot}});
+    eccentra::styles::register_option(settings, kName, "form", form_,
+                                      {{"limited", kLimited}, {"directional", kDirectional}, {"epsd", kSpringDashpot}});
     settings.registerOnOff("torsionTorque", torsion_, true);
     settings.registerDoubleSetting("rollingDampingRatio", damping_ratio_, kDefaultDampingRatio);
   }
@@ -53,8 +52,8 @@ template <> class RollingModel<ROLLING_SHAPE> : public RollingModelBase {
                  "rolling_friction shape: a restart file does not keep the words of the model: give the pair_style "
                  "line again after read_restart");
     // Names of our own: the creators of stock models for the same fixes do not check.
-    registry.registerProperty("eccentraRollingFriction", &eccentra::rolling::create_rolling_coefficient);
-    registry.registerProperty("eccentraShapeRollingFriction", &eccentra::rolling::create_shape_coefficient);
+    registry.registerProperty("eccentraRollingFriction", &eccentra::styles::create_rolling_coefficient);
+    registry.registerProperty("eccentraShapeRollingFriction", &eccentra::styles::create_shape_coefficient);
     registry.connect("eccentraRollingFriction", mu_r_, kName);
     registry.connect("eccentraShapeRollingFriction", mu_shape_, kName);
     if (force->cg_active())
@@ -63,7 +62,7 @@ template <> class RollingModel<ROLLING_SHAPE> : public RollingModelBase {
       wall_spin_.refresh();
     if (form_ != kLimited)
       return;
-    using eccentra::rolling::FixRollingLimited;
+    using eccentra::styles::FixRollingLimited;
     FixRollingLimited* fix = is_wall_ ? FixRollingLimited::find(lmp) : FixRollingLimited::make_last(lmp);
     if (!fix)
       error->all(FLERR,
@@ -73,20 +72,21 @@ template <> class RollingModel<ROLLING_SHAPE> : public RollingModelBase {
   }
 
   void surfacesIntersect(SurfacesIntersectData& contact, ForceData& on_i, ForceData& on_j) {
-    using namespace eccentra::rolling;
+    using namespace eccentra::styles;
     if (contact.contact_flags)
       *contact.contact_flags |= CONTACT_ROLLING_MODEL;
-    const double coefficient =
-        effective_coefficient(mu_r_[contact.itype][contact.jtype], mu_shape_[contact.itype][contact.jtype]);
-    const double lever = contact.is_wall ? contact.radi : lever_arm(contact.radi, contact.radj);
-    const double cap = torque_cap(coefficient, lever, contact.kn * contact.deltan);
+    const double coefficient = eccentra::contact::effective_coefficient(mu_r_[contact.itype][contact.jtype],
+                                                                        mu_shape_[contact.itype][contact.jtype]);
+    const double lever = contact.is_wall ? contact.radi : eccentra::contact::lever_arm(contact.radi, contact.radj);
+    const double cap = eccentra::contact::torque_cap(coefficient, lever, contact.kn * contact.deltan);
     if (form_ == kLimited) {
       limited(contact, cap, on_i, on_j);
       return;
     }
     const Eigen::Vector3d normal(contact.en[0], contact.en[1], contact.en[2]);
-    const Eigen::Vector3d torque = form_ == kDirectional ? directional_torque(relative_spin(contact, normal), cap)
-                                                         : spring_dashpot(contact, normal, coefficient, lever, cap);
+    const Eigen::Vector3d torque = form_ == kDirectional
+                                       ? eccentra::contact::directional_torque(relative_spin(contact, normal), cap)
+                                       : spring_dashpot(contact, normal, coefficient, lever, cap);
     for (int k = 0; k < 3; ++k) {
       on_i.delta_torque[k] += torque[k];
       on_j.delta_torque[k] -= torque[k];
@@ -117,7 +117,7 @@ template <> class RollingModel<ROLLING_SHAPE> : public RollingModelBase {
     using Spin = Eigen::Map<const Eigen::Vector3d>;
     const Eigen::Vector3d spin = contact.is_wall ? Eigen::Vector3d(Spin(contact.omega_i) - wall_spin(contact))
                                                  : Eigen::Vector3d(Spin(contact.omega_i) - Spin(contact.omega_j));
-    return torsion_ ? spin : eccentra::rolling::rolling_part(spin, normal);
+    return torsion_ ? spin : eccentra::contact::rolling_part(spin, normal);
   }
 
   /// Loads the contact with the torque that it held, turned and cut to what it can hold now, and reports it to the fix,
@@ -145,7 +145,7 @@ template <> class RollingModel<ROLLING_SHAPE> : public RollingModelBase {
     }
     if (!contact.computeflag)
       return;
-    eccentra::rolling::LimitedContact& reported = contact.is_wall
+    eccentra::contact::LimitedContact& reported = contact.is_wall
                                                       ? limiter_->add_wall(contact.i, cap, wall_spin(contact))
                                                       : limiter_->add_pair(contact.i, contact.j, cap);
     for (int k = 0; k < 3; ++k) {
@@ -157,7 +157,7 @@ template <> class RollingModel<ROLLING_SHAPE> : public RollingModelBase {
 
   Eigen::Vector3d spring_dashpot(const SurfacesIntersectData& contact, const Eigen::Vector3d& normal,
                                  double coefficient, double lever, double cap) const {
-    using namespace eccentra::rolling;
+    using namespace eccentra::styles;
     Eigen::Map<Eigen::Vector3d> memory(contact.contact_history + memory_offset_);
     // About the contact point: 2/5 m r^2 + m r^2 for each partner that is no wall.
     const double about_contact = 1.0 + kSphereInertia;
@@ -166,10 +166,11 @@ template <> class RollingModel<ROLLING_SHAPE> : public RollingModelBase {
       const double other = about_contact * contact.mj * contact.radj * contact.radj;
       inertia = inertia * other / (inertia + other);
     }
-    const Eigen::Vector3d remembered = torsion_ ? Eigen::Vector3d(memory) : rolling_part(memory, normal);
-    const SpringDashpot torque = eccentra::rolling::spring_dashpot(remembered, relative_spin(contact, normal),
-                                                                   rolling_stiffness(contact.kn, coefficient, lever),
-                                                                   cap, inertia, damping_ratio_, update->dt);
+    const Eigen::Vector3d remembered =
+        torsion_ ? Eigen::Vector3d(memory) : eccentra::contact::rolling_part(memory, normal);
+    const eccentra::contact::SpringDashpot torque = eccentra::contact::spring_dashpot(
+        remembered, relative_spin(contact, normal),
+        eccentra::contact::rolling_stiffness(contact.kn, coefficient, lever), cap, inertia, damping_ratio_, update->dt);
     if (contact.computeflag && contact.shearupdate)
       memory = torque.spring;
     return torque.total;
@@ -183,8 +184,8 @@ template <> class RollingModel<ROLLING_SHAPE> : public RollingModelBase {
   double damping_ratio_ = kDefaultDampingRatio;
   double** mu_r_ = nullptr;
   double** mu_shape_ = nullptr;
-  eccentra::rolling::RollingLimiter* limiter_ = nullptr;
-  eccentra::rolling::WallSpin wall_spin_;
+  eccentra::contact::RollingLimiter* limiter_ = nullptr;
+  eccentra::styles::WallSpin wall_spin_;
 };
 
 } // namespace ContactModels

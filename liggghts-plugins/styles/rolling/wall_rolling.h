@@ -16,7 +16,7 @@ namespace LAMMPS_NS {
 class LAMMPS;
 }
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 /// One contact as a rolling model sees it. World frame, SI.
 struct WallRollingContact {
@@ -42,8 +42,8 @@ struct WallRollingContact {
 class WallRolling {
  public:
   virtual ~WallRolling() = default;
-  /// Consumes this model's own words from words[at] on and advances `at`; leaves what it does not know.
-  virtual void read_words(const std::vector<std::string>& words, std::size_t& at) = 0;
+  /// Consumes this model's own arguments from arguments[at] on and advances `at`; leaves what it does not know.
+  virtual void read_arguments(const std::vector<std::string>& arguments, std::size_t& at) = 0;
   /// Before each run: fetch coefficients. Throws std::invalid_argument with one sentence where that is not possible.
   virtual void init(LAMMPS_NS::LAMMPS* lmp) = 0;
   /// Torque on the particle [N m]. Called once per contact and step.
@@ -62,4 +62,4 @@ struct RegisterWallRolling {
   }
 };
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

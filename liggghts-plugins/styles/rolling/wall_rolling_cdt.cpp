@@ -10,7 +10,7 @@
 
 #include <stdexcept>
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 std::map<std::string, WallRollingCreator>& wall_rolling_models() {
   static std::map<std::string, WallRollingCreator> models;
@@ -21,11 +21,11 @@ namespace {
 
 class ConstantDirectionalTorque : public WallRolling {
  public:
-  void read_words(const std::vector<std::string>& words, std::size_t& at) override {
-    if (at + 1 < words.size() && words[at] == "torsionTorque") {
-      if (words[at + 1] != "on" && words[at + 1] != "off")
-        throw std::invalid_argument("torsionTorque must be on or off, not '" + words[at + 1] + "'");
-      torsion_ = words[at + 1] == "on";
+  void read_arguments(const std::vector<std::string>& arguments, std::size_t& at) override {
+    if (at + 1 < arguments.size() && arguments[at] == "torsionTorque") {
+      if (arguments[at + 1] != "on" && arguments[at + 1] != "off")
+        throw std::invalid_argument("torsionTorque must be on or off, not '" + arguments[at + 1] + "'");
+      torsion_ = arguments[at + 1] == "on";
       at += 2;
     }
   }
@@ -57,4 +57,4 @@ const RegisterWallRolling record("cdt", [] { return std::make_unique<ConstantDir
 
 } // namespace
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

@@ -6,23 +6,23 @@
 
 #include <stdexcept>
 
-namespace eccentra::rolling {
+namespace eccentra::styles {
 namespace {
 
-class EccentricWallRolling : public cluster::WallRolling {
+class EccentricWallRolling : public styles::WallRolling {
  public:
-  void read_words(const std::vector<std::string>& words, std::size_t& at) override {
-    if (at >= words.size())
+  void read_arguments(const std::vector<std::string>& arguments, std::size_t& at) override {
+    if (at >= arguments.size())
       return;
-    if (words[at] == "shape")
+    if (arguments[at] == "shape")
       throw std::invalid_argument(
           "the shape belongs to the particles: give 'shape ...' in pair_style, not at the wall");
-    if (words[at] != "rockingDamping")
+    if (arguments[at] != "rockingDamping")
       return;
-    if (at + 1 >= words.size() || (words[at + 1] != "on" && words[at + 1] != "off"))
+    if (at + 1 >= arguments.size() || (arguments[at + 1] != "on" && arguments[at + 1] != "off"))
       throw std::invalid_argument("rockingDamping must be on or off, not '" +
-                                  (at + 1 < words.size() ? words[at + 1] : std::string()) + "'");
-    damped_ = words[at + 1] == "on";
+                                  (at + 1 < arguments.size() ? arguments[at + 1] : std::string()) + "'");
+    damped_ = arguments[at + 1] == "on";
     at += 2;
   }
 
@@ -33,13 +33,14 @@ class EccentricWallRolling : public cluster::WallRolling {
                                   "... rolling_friction eccentric shape ..., too");
   }
 
-  Eigen::Vector3d torque(const cluster::WallRollingContact& contact) override {
+  Eigen::Vector3d torque(const styles::WallRollingContact& contact) override {
     const double* const q = spheres_->orientation(contact.atom);
     const double depth = contact.elastic_normal / (contact.stiffness * contact.lever);
-    const ContactLoad load{contact.normal_force, damped_ ? contact.normal_damping * contact.lever : 0.0,
-                           contact.normal.cross(contact.angular_velocity)};
-    return contact.lever * turned_moment(spheres_->shape(), {q[0], q[1], q[2], q[3]}, -contact.normal, depth, load)
-                               .cross(contact.normal);
+    const contact::ContactLoad load{contact.normal_force, damped_ ? contact.normal_damping * contact.lever : 0.0,
+                                    contact.normal.cross(contact.angular_velocity)};
+    return contact.lever *
+           contact::turned_moment(spheres_->shape(), {q[0], q[1], q[2], q[3]}, -contact.normal, depth, load)
+               .cross(contact.normal);
   }
 
  private:
@@ -47,7 +48,7 @@ class EccentricWallRolling : public cluster::WallRolling {
   FixSphereOrientation* spheres_ = nullptr;
 };
 
-const cluster::RegisterWallRolling record("eccentric", [] { return std::make_unique<EccentricWallRolling>(); });
+const styles::RegisterWallRolling record("eccentric", [] { return std::make_unique<EccentricWallRolling>(); });
 
 } // namespace
-} // namespace eccentra::rolling
+} // namespace eccentra::styles

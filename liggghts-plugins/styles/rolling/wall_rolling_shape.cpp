@@ -14,21 +14,21 @@
 #include <cstdlib>
 #include <stdexcept>
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 namespace {
 
 class ShapeRolling : public WallRolling {
  public:
-  void read_words(const std::vector<std::string>& words, std::size_t& at) override {
-    if (at >= words.size())
+  void read_arguments(const std::vector<std::string>& arguments, std::size_t& at) override {
+    if (at >= arguments.size())
       return;
-    const std::string& word = words[at];
+    const std::string& word = arguments[at];
     if (word != "form" && word != "torsionTorque" && word != "rollingDampingRatio")
       return;
-    if (at + 1 >= words.size())
+    if (at + 1 >= arguments.size())
       throw std::invalid_argument("the line ends where a value for '" + word + "' was expected");
-    const std::string& value = words[at + 1];
+    const std::string& value = arguments[at + 1];
     if (word == "form")
       read_form(value);
     else if (word == "torsionTorque")
@@ -42,13 +42,13 @@ class ShapeRolling : public WallRolling {
     lmp_ = lmp;
     PropertyRegistry& registry = lmp->force->registry;
     const char* caller = "wall/gran/cluster rolling_friction shape";
-    registry.registerProperty("eccentraRollingFriction", &rolling::create_rolling_coefficient);
-    registry.registerProperty("eccentraShapeRollingFriction", &rolling::create_shape_coefficient);
+    registry.registerProperty("eccentraRollingFriction", &styles::create_rolling_coefficient);
+    registry.registerProperty("eccentraShapeRollingFriction", &styles::create_shape_coefficient);
     registry.connect("eccentraRollingFriction", mu_r_, caller);
     registry.connect("eccentraShapeRollingFriction", mu_shape_, caller);
     if (form_ != Form::limited)
       return;
-    rolling::FixRollingLimited* fix = rolling::FixRollingLimited::find(lmp);
+    styles::FixRollingLimited* fix = styles::FixRollingLimited::find(lmp);
     if (!fix)
       throw std::invalid_argument(
           "rolling_friction shape form limited at a wall needs the same form in pair_style (with "
@@ -57,20 +57,20 @@ class ShapeRolling : public WallRolling {
   }
 
   Eigen::Vector3d torque(const WallRollingContact& contact) override {
-    const double coefficient = rolling::effective_coefficient(mu_r_[contact.atom_type][contact.wall_type],
+    const double coefficient = contact::effective_coefficient(mu_r_[contact.atom_type][contact.wall_type],
                                                               mu_shape_[contact.atom_type][contact.wall_type]);
-    const double cap = rolling::torque_cap(coefficient, contact.lever, contact.elastic_normal);
+    const double cap = contact::torque_cap(coefficient, contact.lever, contact.elastic_normal);
     const Eigen::Vector3d spin =
-        torsion_ ? contact.angular_velocity : rolling::rolling_part(contact.angular_velocity, contact.normal);
+        torsion_ ? contact.angular_velocity : contact::rolling_part(contact.angular_velocity, contact.normal);
     if (form_ == Form::directional)
-      return rolling::directional_torque(spin, cap);
+      return contact::directional_torque(spin, cap);
     Eigen::Map<Eigen::Vector3d> memory(contact.memory);
-    const Eigen::Vector3d held = torsion_ ? Eigen::Vector3d(memory) : rolling::rolling_part(memory, contact.normal);
+    const Eigen::Vector3d held = torsion_ ? Eigen::Vector3d(memory) : contact::rolling_part(memory, contact.normal);
     if (form_ == Form::limited)
-      return limited(contact, rolling::bounded(held, cap), cap);
+      return limited(contact, contact::bounded(held, cap), cap);
     constexpr double solid_sphere_about_contact = 1.4; // 2/5 m r^2 + m r^2
-    const rolling::SpringDashpot torque = rolling::spring_dashpot(
-        held, spin, rolling::rolling_stiffness(contact.stiffness, coefficient, contact.lever), cap,
+    const contact::SpringDashpot torque = contact::spring_dashpot(
+        held, spin, contact::rolling_stiffness(contact.stiffness, coefficient, contact.lever), cap,
         solid_sphere_about_contact * contact.mass * contact.lever * contact.lever, damping_ratio_, lmp_->update->dt);
     if (contact.advance)
       memory = torque.spring;
@@ -104,7 +104,7 @@ class ShapeRolling : public WallRolling {
 
   /// The torque that the contact holds already; the limiter changes it once the torques of all contacts are known.
   Eigen::Vector3d limited(const WallRollingContact& contact, const Eigen::Vector3d& held, double cap) {
-    rolling::LimitedContact& reported = limiter_->add_wall(contact.atom, cap, contact.wall_spin);
+    contact::LimitedContact& reported = limiter_->add_wall(contact.atom, cap, contact.wall_spin);
     reported.normal = torsion_ ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : contact.normal;
     reported.torque = held;
     reported.memory = contact.advance ? contact.memory : nullptr;
@@ -117,11 +117,11 @@ class ShapeRolling : public WallRolling {
   LAMMPS_NS::LAMMPS* lmp_ = nullptr;
   double** mu_r_ = nullptr;
   double** mu_shape_ = nullptr;
-  rolling::RollingLimiter* limiter_ = nullptr;
+  contact::RollingLimiter* limiter_ = nullptr;
 };
 
 const RegisterWallRolling record("shape", [] { return std::make_unique<ShapeRolling>(); });
 
 } // namespace
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

@@ -14,10 +14,10 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace eccentra::rolling {
+namespace eccentra::styles {
 namespace {
 
-namespace host = LIGGGHTS::ContactModels;
+namespace stock = LIGGGHTS::ContactModels;
 
 constexpr int kKept = 3; ///< values that WallRollingContact::memory has: the torque of the spring
 constexpr int kMost = 8; ///< values that a model may ask for (luding: a second torque, for torsion, which is off)
@@ -32,7 +32,7 @@ class History : public LIGGGHTS::IContactHistorySetup {
 };
 
 /// Stands in for the contact model around a rolling model. Hertz has no adhesion: kc and fo, which luding reads, are 0.
-class Surroundings : public host::ContactModelBase {
+class Surroundings : public stock::ContactModelBase {
  public:
   explicit Surroundings(LAMMPS_NS::LAMMPS* lmp) : ContactModelBase(lmp, true) {
     add_history_offset("kc_offset", kMost);
@@ -42,38 +42,38 @@ class Surroundings : public host::ContactModelBase {
   void tally_pw(double, int, int, int) override {}
 };
 
-template <int Rolling> class StockWallRolling : public cluster::WallRolling {
+template <int Rolling> class StockWallRolling : public styles::WallRolling {
  public:
   /// `option`: the one on/off word that may follow, or null.
   explicit StockWallRolling(const char* option) : option_(option) {}
 
-  void read_words(const std::vector<std::string>& words, std::size_t& at) override {
-    if (!option_ || at >= words.size() || words[at] != option_)
+  void read_arguments(const std::vector<std::string>& arguments, std::size_t& at) override {
+    if (!option_ || at >= arguments.size() || arguments[at] != option_)
       return;
-    if (at + 1 >= words.size() || (words[at + 1] != "on" && words[at + 1] != "off"))
+    if (at + 1 >= arguments.size() || (arguments[at + 1] != "on" && arguments[at + 1] != "off"))
       throw std::invalid_argument(std::string(option_) + " must be on or off, not '" +
-                                  (at + 1 < words.size() ? words[at + 1] : "") + "'");
-    value_ = words[at + 1];
+                                  (at + 1 < arguments.size() ? arguments[at + 1] : "") + "'");
+    value_ = arguments[at + 1];
     at += 2;
   }
 
   void init(LAMMPS_NS::LAMMPS* lmp) override {
     History history;
     surroundings_ = std::make_unique<Surroundings>(lmp);
-    model_ = std::make_unique<host::RollingModel<Rolling>>(lmp, &history, surroundings_.get());
+    model_ = std::make_unique<stock::RollingModel<Rolling>>(lmp, &history, surroundings_.get());
     Settings settings(lmp);
     model_->registerSettings(settings);
-    std::string words[] = {option_ ? option_ : "", value_};
-    char* arg[] = {words[0].data(), words[1].data()};
+    std::string arguments[] = {option_ ? option_ : "", value_};
+    char* arg[] = {arguments[0].data(), arguments[1].data()};
     settings.parseArguments(option_ ? 2 : 0, arg);
     model_->postSettings(&history, surroundings_.get());
     model_->connectToProperties(lmp->force->registry);
   }
 
-  Eigen::Vector3d torque(const cluster::WallRollingContact& contact) override {
+  Eigen::Vector3d torque(const styles::WallRollingContact& contact) override {
     double history[kMost + 1] = {};
     std::copy_n(contact.memory, kKept, history);
-    host::SurfacesIntersectData data{};
+    stock::SurfacesIntersectData data{};
     data.is_wall = true;
     data.i = contact.atom;
     data.itype = contact.atom_type;
@@ -97,8 +97,8 @@ template <int Rolling> class StockWallRolling : public cluster::WallRolling {
     data.computeflag = 1;
     data.shearupdate = contact.advance;
     data.contact_history = history;
-    host::ForceData on_particle;
-    host::ForceData on_wall;
+    stock::ForceData on_particle;
+    stock::ForceData on_wall;
     model_->surfacesIntersect(data, on_particle, on_wall);
     if (contact.advance)
       std::copy_n(history, kKept, contact.memory);
@@ -109,17 +109,17 @@ template <int Rolling> class StockWallRolling : public cluster::WallRolling {
   const char* option_;
   std::string value_ = "off";
   std::unique_ptr<Surroundings> surroundings_;
-  std::unique_ptr<host::RollingModel<Rolling>> model_;
+  std::unique_ptr<stock::RollingModel<Rolling>> model_;
 };
 
-template <int Rolling> cluster::WallRollingCreator creator(const char* option) {
+template <int Rolling> styles::WallRollingCreator creator(const char* option) {
   return [option] { return std::make_unique<StockWallRolling<Rolling>>(option); };
 }
 
-const cluster::RegisterWallRolling epsd("epsd", creator<host::ROLLING_EPSD>("torsionTorque"));
-const cluster::RegisterWallRolling epsd2("epsd2", creator<host::ROLLING_EPSD2>("torsionTorque"));
-const cluster::RegisterWallRolling epsd3("epsd3", creator<host::ROLLING_EPSD3>("torsionTorque"));
-const cluster::RegisterWallRolling luding("luding", creator<host::ROLLING_LUDING>(nullptr));
+const styles::RegisterWallRolling epsd("epsd", creator<stock::ROLLING_EPSD>("torsionTorque"));
+const styles::RegisterWallRolling epsd2("epsd2", creator<stock::ROLLING_EPSD2>("torsionTorque"));
+const styles::RegisterWallRolling epsd3("epsd3", creator<stock::ROLLING_EPSD3>("torsionTorque"));
+const styles::RegisterWallRolling luding("luding", creator<stock::ROLLING_LUDING>(nullptr));
 
 } // namespace
-} // namespace eccentra::rolling
+} // namespace eccentra::styles

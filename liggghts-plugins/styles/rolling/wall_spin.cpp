@@ -9,7 +9,7 @@
 
 #include <Eigen/Geometry>
 
-namespace eccentra::host {
+namespace eccentra::styles {
 // `shear` on a primitive cylinder turns it about its axis; the fix has no accessor for that.
 struct WallShearAxis {
   using type = int LAMMPS_NS::FixWallGran::*;
@@ -19,9 +19,9 @@ struct WallShearVector {
 };
 template struct PrivateMember<WallShearAxis, &LAMMPS_NS::FixWallGran::shearAxis_>;
 template struct PrivateMember<WallShearVector, &LAMMPS_NS::FixWallGran::shearAxisVec_>;
-} // namespace eccentra::host
+} // namespace eccentra::styles
 
-namespace eccentra::rolling {
+namespace eccentra::styles {
 
 using namespace LAMMPS_NS;
 
@@ -32,8 +32,8 @@ void WallSpin::refresh() {
   primitive_.setZero();
   if (turning_) {
     primitive_ = turning_->wall_spin();
-  } else if (stock_ && !stock_->is_mesh_wall() && stock_->*host::Published<host::WallShearAxis>::pointer >= 0) {
-    const auto& spin = stock_->*host::Published<host::WallShearVector>::pointer;
+  } else if (stock_ && !stock_->is_mesh_wall() && stock_->*styles::Published<styles::WallShearAxis>::pointer >= 0) {
+    const auto& spin = stock_->*styles::Published<styles::WallShearVector>::pointer;
     primitive_ = Eigen::Vector3d(spin[0], spin[1], spin[2]);
   }
 }
@@ -67,4 +67,4 @@ Eigen::Vector3d triangle_spin(const Eigen::Vector3d (&position)[3], const Eigen:
   return within + about * normal;
 }
 
-} // namespace eccentra::rolling
+} // namespace eccentra::styles

@@ -15,7 +15,7 @@ namespace LIGGGHTS {
 class IContactHistorySetup;
 }
 
-namespace eccentra::rolling {
+namespace eccentra::styles {
 
 /// For wall fixes of ours that are no stock FixWallGran or that turn in ways of their own.
 class TurningWall {
@@ -44,4 +44,4 @@ class WallSpin {
 /// Spin [rad/s] of a rigid triangle from the positions [m] and velocities [m/s] of its nodes.
 Eigen::Vector3d triangle_spin(const Eigen::Vector3d (&position)[3], const Eigen::Vector3d (&velocity)[3]);
 
-} // namespace eccentra::rolling
+} // namespace eccentra::styles

@@ -18,7 +18,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 using namespace LAMMPS_NS;
 
@@ -29,7 +29,7 @@ constexpr int kFaceContact = 7; // all three barycentric coordinates positive, i
 Eigen::Vector3d node(TriMesh* mesh, int triangle, int k) {
   double x[3];
   mesh->node(triangle, k, x);
-  return vector3(x);
+  return base::vector3(x);
 }
 
 /// Velocities of a triangle's nodes, or null for a mesh at rest.
@@ -93,14 +93,14 @@ void WallMeshes::invert_neighbour_lists(int groupbit, std::vector<int>& near) {
       near.push_back(i);
 }
 
-WallSurface WallMeshes::plane(int mesh, int triangle) const {
+contact::WallSurface WallMeshes::plane(int mesh, int triangle) const {
   Eigen::Vector3d normal;
   meshes_[mesh]->surfaceNorm(triangle, normal.data());
-  return WallSurface::plane(node(meshes_[mesh], triangle, 0), normal);
+  return contact::WallSurface::plane(node(meshes_[mesh], triangle, 0), normal);
 }
 
 void WallMeshes::touch(int mesh, int triangle, int atom, int sub, const Eigen::Vector3d& x, const Eigen::Vector3d& arm,
-                       double radius, std::vector<WallTouch>& touches) const {
+                       double radius, std::vector<contact::WallTouch>& touches) const {
   TriMesh* tri_mesh = meshes_[mesh];
   Eigen::Vector3d centre = x + arm;
   double to_wall[3];
@@ -112,20 +112,20 @@ void WallMeshes::touch(int mesh, int triangle, int atom, int sub, const Eigen::V
     return;
   const int id = tri_mesh->id(triangle);
   if (sign == kFaceContact)
-    for (const WallTouch& other : touches)
+    for (const contact::WallTouch& other : touches)
       if (other.atom == atom && other.key.sub() == sub && other.key.mesh() == mesh &&
           coplanar(mesh, other.key.triangle(), id))
         return;
   const double distance = radius + gap;
   Eigen::Vector3d normal;
   if (distance > 0.0)
-    normal = -vector3(to_wall) / distance;
+    normal = -base::vector3(to_wall) / distance;
   else
     tri_mesh->surfaceNorm(triangle, normal.data());
-  WallTouch touch;
+  contact::WallTouch touch;
   touch.atom = atom;
   touch.history = nullptr;
-  touch.key = WallContactKey(sub, mesh, id);
+  touch.key = contact::WallContactKey(sub, mesh, id);
   touch.normal = normal;
   touch.overlap = -gap;
   touch.radius = radius;
@@ -146,12 +146,12 @@ void WallMeshes::motion(int mesh, int triangle, const double* bary, Eigen::Vecto
   if (!v)
     return;
   for (int k = 0; k < 3; ++k)
-    velocity += bary[k] * vector3(v[k]);
+    velocity += bary[k] * base::vector3(v[k]);
   // A rigid triangle: v1 - v0 = omega x e1 and v2 - v0 = omega x e2, solved in the basis (e1, e2, n).
   const Eigen::Vector3d e1 = node(meshes_[mesh], triangle, 1) - node(meshes_[mesh], triangle, 0);
   const Eigen::Vector3d e2 = node(meshes_[mesh], triangle, 2) - node(meshes_[mesh], triangle, 0);
-  const Eigen::Vector3d dv1 = vector3(v[1]) - vector3(v[0]);
-  const Eigen::Vector3d dv2 = vector3(v[2]) - vector3(v[0]);
+  const Eigen::Vector3d dv1 = base::vector3(v[1]) - base::vector3(v[0]);
+  const Eigen::Vector3d dv2 = base::vector3(v[2]) - base::vector3(v[0]);
   const Eigen::Vector3d area = e1.cross(e2);
   const double twice = area.norm();
   const Eigen::Vector3d n = area / twice;
@@ -163,7 +163,7 @@ bool WallMeshes::coplanar(int mesh, int id1, int id2) const {
   return id1 != id2 && tri_mesh->map(id1, 0) >= 0 && tri_mesh->areCoplanarNodeNeighs(id1, id2);
 }
 
-void WallMeshes::report(const WallTouch& touch, const Eigen::Vector3d& force_on_particle) const {
+void WallMeshes::report(const contact::WallTouch& touch, const Eigen::Vector3d& force_on_particle) const {
   Eigen::Vector3d force = force_on_particle;
   Eigen::Vector3d to_wall = touch.to_wall;
   Eigen::Vector3d velocity = touch.wall_velocity;
@@ -185,4 +185,4 @@ int WallMeshes::largest_type() const {
   return type;
 }
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

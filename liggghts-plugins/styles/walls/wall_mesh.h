@@ -17,7 +17,7 @@ class FixMeshSurface;
 class TriMesh;
 } // namespace LAMMPS_NS
 
-namespace eccentra::cluster {
+namespace eccentra::styles {
 
 class WallMeshes {
  public:
@@ -40,15 +40,15 @@ class WallMeshes {
   }
 
   /// The plane in which a triangle lies.
-  WallSurface plane(int mesh, int triangle) const;
+  contact::WallSurface plane(int mesh, int triangle) const;
   /// Adds the contact of a sphere to `touches`, unless there is none, or a coplanar neighbour has the same one already.
   /// `arm`: from the body's centre x to the sphere's centre.
   void touch(int mesh, int triangle, int atom, int sub, const Eigen::Vector3d& x, const Eigen::Vector3d& arm,
-             double radius, std::vector<WallTouch>& touches) const;
+             double radius, std::vector<contact::WallTouch>& touches) const;
   /// True if contacts with these two triangles (by id) of a mesh are one, so that history passes from one to the other.
   bool coplanar(int mesh, int id1, int id2) const;
   /// Tells the mesh of a force on it, for stock's own stress output.
-  void report(const WallTouch& touch, const Eigen::Vector3d& force_on_particle) const;
+  void report(const contact::WallTouch& touch, const Eigen::Vector3d& force_on_particle) const;
 
   int smallest_type() const;
   int largest_type() const;
@@ -70,4 +70,4 @@ class WallMeshes {
   std::vector<Near> near_;
 };
 
-} // namespace eccentra::cluster
+} // namespace eccentra::styles

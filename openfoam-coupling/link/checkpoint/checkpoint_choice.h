@@ -25,7 +25,8 @@ struct CheckpointChoice {
 /// The DEM side's file of this checkpoint, or "none".
 std::string restart_file_of(const CheckpointMark& mark);
 
-/// The words that tell a script, for LIGGGHTS's command line: variables `resumes` (0 or 1) and `checkpoint` (a file).
+/// The arguments that tell a script, for LIGGGHTS's command line: variables `resumes` (0 or 1) and `checkpoint` (a
+/// file).
 std::vector<std::string> script_variables(const CheckpointChoice& choice);
 
 /// Looks at the DEM side's checkpoints from the newest on. `fluid_part`, which gets the manifest, says whether the

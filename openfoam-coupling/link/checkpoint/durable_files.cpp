@@ -163,11 +163,11 @@ std::optional<Manifest> parse(const std::string& path, std::string& why) {
 
 /// `what`: "SIZE CHECKSUM NAME".
 bool intact(const std::string& folder, const std::string& what, std::string& why) {
-  std::istringstream words(what);
+  std::istringstream arguments(what);
   std::size_t bytes = 0;
   std::string sum, name;
-  words >> bytes >> sum >> std::ws;
-  std::getline(words, name);
+  arguments >> bytes >> sum >> std::ws;
+  std::getline(arguments, name);
   const std::string path = folder + '/' + name;
   const std::optional<std::string> contents = read_file(path);
   if (!contents)

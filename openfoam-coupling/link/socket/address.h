@@ -10,34 +10,34 @@
 namespace eccentra::link {
 
 /// How long the link waits [s].
-struct Patience {
+struct Timeout {
   double silence = 5.0; ///< until a peer that does not answer any more counts as lost
   double arrival = 5.0; ///< until a peer that has not come yet counts as missing
 };
 
 /// Where, and with which keys.
 struct Address {
-  std::string words; ///< ipc:///path, a plain path, or tcp://host:port
-  std::string keys;  ///< folder of the keys (link/keys.h); empty: none
-  /// Of a lane beside that address (link/lanes.h): of a Unix socket the end of its path, else its port in place of the
-  /// other (0: one that the system chooses). Negative: the address itself.
-  int lane = -1;
+  std::string arguments; ///< ipc:///path, a plain path, or tcp://host:port
+  std::string keys;      ///< folder of the keys (link/keys.h); empty: none
+  /// Of a rank connection beside that address (link/rank connections.h): of a Unix socket the end of its path, else its
+  /// port in place of the other (0: one that the system chooses). Negative: the address itself.
+  int connection = -1;
 
   // Words alone are an address.
-  Address(std::string w, std::string k = "") : words(std::move(w)), keys(std::move(k)) {}
-  Address(const char* w) : words(w) {}
+  Address(std::string w, std::string k = "") : arguments(std::move(w)), keys(std::move(k)) {}
+  Address(const char* w) : arguments(w) {}
   Address(const Address& beside, std::uint32_t number)
-      : words(beside.words), keys(beside.keys), lane(static_cast<int>(number)) {}
+      : arguments(beside.arguments), keys(beside.keys), connection(static_cast<int>(number)) {}
 };
 
-/// The endpoint that the words name. Throws Refusal with one sentence for anything else, and for an address that other
-/// machines reach where there are no keys.
+/// The endpoint that the arguments name. Throws Refusal with one sentence for anything else, and for an address that
+/// other machines reach where there are no keys.
 std::string endpoint_of(const Address& address);
 
 /// Whether only programs of this machine reach it: a Unix socket or loopback. Of an address that endpoint_of accepts.
 bool is_of_this_machine(const Address& address);
 
 /// Throws Refusal unless both times are positive and finite.
-void check(const Patience& patience);
+void check(const Timeout& patience);
 
 } // namespace eccentra::link

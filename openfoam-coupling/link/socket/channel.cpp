@@ -43,8 +43,8 @@ int milliseconds(double seconds) {
   return std::max(1, static_cast<int>(std::lround(1000 * seconds)));
 }
 
-/// Messages of megabytes come and go at every meeting. Their memory stays with the process: handing it back to the
-/// system and having it cleared again takes longer than sending.
+/// Messages of megabytes come and go at every coupling step. Their memory stays with the process: handing it back to
+/// the system and having it cleared again takes longer than sending.
 void keep_memory() {
   constexpr int kMostMapped = 32 << 20; // the largest that the library accepts
   constexpr int kKept = 256 << 20;
@@ -96,8 +96,8 @@ struct Channel::State {
   Side side;
   std::string address;
   std::string keys; ///< folder
-  int lane;         ///< as in Address
-  Patience patience;
+  int connection;   ///< as in Address
+  Timeout patience;
   zmq::context_t context;
   std::unique_ptr<KeyGuard> guard; ///< of the fluid side with keys
   zmq::socket_t socket;
@@ -113,8 +113,8 @@ struct Channel::State {
   bool turned_away = false; ///< the other side does not take this one's keys, or has none
   std::uint64_t bytes = 0;  ///< of messages, both ways
 
-  State(Side s, const Address& a, const Patience& p)
-      : side(s), address(a.words), keys(a.keys), lane(a.lane), patience(p),
+  State(Side s, const Address& a, const Timeout& p)
+      : side(s), address(a.arguments), keys(a.keys), connection(a.connection), patience(p),
         socket(context, s == Side::dem ? zmq::socket_type::dealer : zmq::socket_type::router),
         monitor(context, zmq::socket_type::pair) {}
 
@@ -124,13 +124,13 @@ struct Channel::State {
     check(patience);
     keep_memory();
     Address asked(address, keys);
-    asked.lane = lane;
+    asked.connection = connection;
     const std::string endpoint = endpoint_of(asked);
-    if (lane >= 0)
+    if (connection >= 0)
       address = endpoint;
     use_keys();
     socket.set(zmq::sockopt::linger, kLinger);
-    socket.set(zmq::sockopt::maxmsgsize, static_cast<int64_t>(wire::most_bytes()));
+    socket.set(zmq::sockopt::maxmsgsize, static_cast<int64_t>(wire::max_bytes()));
     socket.set(zmq::sockopt::heartbeat_ivl, milliseconds(kAskAfter * patience.silence));
     socket.set(zmq::sockopt::heartbeat_timeout, milliseconds(kAnswerWithin * patience.silence));
     socket.set(zmq::sockopt::handshake_ivl, milliseconds(patience.silence));
@@ -265,7 +265,7 @@ struct Channel::State {
   [[noreturn]] void missing() const {
     char seconds[32];
     std::snprintf(seconds, sizeof seconds, "%g", patience.arrival);
-    if (lane >= 0)
+    if (connection >= 0)
       throw Refusal(std::string(other()) + " did not come to '" + address +
                     "', which is for one of its ranks, within " + seconds +
                     " s: see what it printed, or let all rows travel over rank 0 (fix fluid/couple ... lanes no)");
@@ -276,7 +276,7 @@ struct Channel::State {
   }
 };
 
-Channel::Channel(Side side, const Address& address, const Patience& patience)
+Channel::Channel(Side side, const Address& address, const Timeout& patience)
     : state_(std::make_unique<State>(side, address, patience)) {
   state_->open();
 }

@@ -19,7 +19,7 @@ class Channel {
   enum class Side { dem, fluid }; ///< the fluid side binds the address, the DEM side connects to it
 
   /// Does not wait for the other side. Throws Refusal if the address cannot be used.
-  Channel(Side side, const Address& address, const Patience& patience);
+  Channel(Side side, const Address& address, const Timeout& patience);
   ~Channel();
 
   /// A message in one piece.

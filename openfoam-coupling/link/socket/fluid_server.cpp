@@ -32,12 +32,12 @@ struct FluidServer::Command {
   wire::Kind kind = wire::Kind::farewell;
   std::size_t count = 0;
   DemTerms terms;
-  Meeting meeting;
+  CouplingStep coupling_step;
   CheckpointMark mark;
 };
 
-FluidServer::FluidServer(MPI_Comm ranks, const Address& address, const Patience& patience, std::int32_t cells)
-    : ranks_(ranks), address_(address), patience_(patience) {
+FluidServer::FluidServer(MPI_Comm ranks, const Address& address, const Timeout& patience, std::int32_t cells)
+    : ranks_(ranks), address_(address), timeout_(patience) {
   cells_of_rank_.resize(size_of(ranks));
   MPI_Allgather(&cells, 1, MPI_INT32_T, cells_of_rank_.data(), 1, MPI_INT32_T, ranks);
   on_root(ranks_, [&] {
@@ -56,17 +56,17 @@ FluidServer::Command FluidServer::next_command() {
     command.kind = wire::kind_of(message_.view());
     if (command.kind == wire::Kind::dem_terms) {
       command.terms = wire::decode_dem_terms(message_.view());
-    } else if (command.kind == wire::Kind::meeting && agreed_) {
-      const wire::Rows rows = wire::decode_meeting(message_.view(), extents_, command.meeting);
-      wire::check_tickets(rows, extents_, cells_of_rank_);
-      if (command.meeting.needed & ~offered_)
+    } else if (command.kind == wire::Kind::coupling_step && agreed_) {
+      const wire::Rows rows = wire::decode_coupling_step(message_.view(), extents_, command.coupling_step);
+      wire::check_cell_hints(rows, extents_, cells_of_rank_);
+      if (command.coupling_step.needed & ~offered_)
         throw Refusal(
             "the DEM side asks for fluid quantities that this solver does not offer: drop the effect that needs "
             "them from fix fluid/force");
-      if (command.meeting.number != ++meetings_)
+      if (command.coupling_step.number != ++coupling_steps_)
         throw Refusal("the DEM side left out a meeting: install the same release of Eccentra on both sides");
       command.count = rows.count;
-      command.meeting.pack_seconds += transport_seconds_;
+      command.coupling_step.pack_seconds += transport_seconds_;
     } else if (command.kind == wire::Kind::checkpoint && agreed_) {
       command.mark = wire::decode_checkpoint(message_.view());
     } else if (command.kind != wire::Kind::run_ended && command.kind != wire::Kind::farewell &&
@@ -83,7 +83,7 @@ FluidServer::Command FluidServer::next_command() {
 }
 
 void FluidServer::answer_terms(FluidPeer& fluid, const Command& command) {
-  if (agreed_ && command.terms.lanes != lanes_asked_)
+  if (agreed_ && command.terms.rank_connections != rank_connections_asked_)
     throw Refusal("the DEM side spoke out of turn: install the same release of Eccentra on both sides");
   const FluidTerms terms = fluid.agree(command.terms);
   offered_ = terms.offered;
@@ -93,91 +93,94 @@ void FluidServer::answer_terms(FluidPeer& fluid, const Command& command) {
     channel_->send(Channel::Message(wire::encode(terms)));
     return wire::Bytes();
   });
-  if (!agreed_ && command.terms.lanes > 0)
-    open_lanes(command.terms.lanes);
-  lanes_asked_ = command.terms.lanes;
+  if (!agreed_ && command.terms.rank_connections > 0)
+    open_rank_connections(command.terms.rank_connections);
+  rank_connections_asked_ = command.terms.rank_connections;
   agreed_ = true;
 }
 
-void FluidServer::open_lanes(std::uint32_t count) {
-  const std::string why = why_no_lanes(ranks_, Channel::Side::fluid, address_, count);
-  by_lanes_ = why.empty();
+void FluidServer::open_rank_connections(std::uint32_t count) {
+  const std::string why = why_no_rank_connections(ranks_, Channel::Side::fluid, address_, count);
+  by_rank_connections_ = why.empty();
   const std::vector<std::uint32_t> numbers =
-      by_lanes_ ? lanes_.bind(ranks_, address_, patience_, count) : std::vector<std::uint32_t>();
+      by_rank_connections_ ? rank_connections_.bind(ranks_, address_, timeout_, count) : std::vector<std::uint32_t>();
   on_root(ranks_, [&] {
-    channel_->send(Channel::Message(by_lanes_ ? wire::encode_lanes(numbers) : wire::encode_no_lanes(why)));
+    channel_->send(Channel::Message(by_rank_connections_ ? wire::encode_rank_connections(numbers)
+                                                         : wire::encode_no_rank_connections(why)));
     return wire::Bytes();
   });
-  if (by_lanes_)
-    lanes_.greet(ranks_, extents_);
+  if (by_rank_connections_)
+    rank_connections_.greet(ranks_, extents_);
 }
 
-std::vector<wire::Rows> FluidServer::rows_of_lanes(const Command& command) {
+std::vector<wire::Rows> FluidServer::rows_of_rank_connections(const Command& command) {
   std::vector<wire::Rows> parts;
   if (channel_)
-    parts.push_back({command.count, message_.view().data + wire::kHeaderBytes + wire::kMeetingBytes});
+    parts.push_back({command.count, message_.view().data + wire::kHeaderBytes + wire::kCouplingStepBytes});
   const std::vector<long long> counts = on_all(ranks_, [&](const Look& look) {
-    for (Lane& lane : lanes_) {
-      lane.message = lane.channel->receive(look);
-      parts.push_back(wire::decode_rows(lane.message.view(), extents_, {lane.rank, command.meeting.number}));
-      wire::check_tickets(parts.back(), extents_, cells_of_rank_);
+    for (RankConnection& connection : rank_connections_) {
+      connection.message = connection.channel->receive(look);
+      parts.push_back(
+          wire::decode_rows(connection.message.view(), extents_, {connection.rank, command.coupling_step.number}));
+      wire::check_cell_hints(parts.back(), extents_, cells_of_rank_);
     }
     return std::accumulate(parts.begin(), parts.end(), 0LL, [](long long sum, const wire::Rows& rows) {
       return sum + static_cast<long long>(rows.count);
     });
   });
-  if (std::accumulate(counts.begin(), counts.end(), 0LL) != command.meeting.totals.particles)
+  if (std::accumulate(counts.begin(), counts.end(), 0LL) != command.coupling_step.totals.particles)
     throw Refusal("the ranks of DEM have sent another number of particles than they speak of: install the same release "
                   "of Eccentra on both sides");
   return parts;
 }
 
 std::vector<wire::Rows> FluidServer::dealt_rows(const Command& command) {
-  if (command.count != static_cast<std::size_t>(command.meeting.totals.particles))
+  if (command.count != static_cast<std::size_t>(command.coupling_step.totals.particles))
     throw Refusal("the DEM side has sent another number of particles than it speaks of: install the same release of "
                   "Eccentra on both sides");
   const std::size_t row_bytes = wire::particle_row_bytes(extents_);
   const Shares shares = even_shares(ranks_, command.count);
   const int mine = shares.count[rank_of(ranks_)];
   if (!channel_)
-    rows_.resize(mine * std::max(row_bytes, wire::samples_row_bytes(command.meeting.needed)));
-  const std::byte* const all = channel_ ? message_.view().data + wire::kHeaderBytes + wire::kMeetingBytes : nullptr;
+    rows_.resize(mine * std::max(row_bytes, wire::samples_row_bytes(command.coupling_step.needed)));
+  const std::byte* const all =
+      channel_ ? message_.view().data + wire::kHeaderBytes + wire::kCouplingStepBytes : nullptr;
   scatter_rows(ranks_, all, shares, row_bytes, rows_.data(), mine);
   return {{static_cast<std::size_t>(mine), channel_ ? all : rows_.data()}};
 }
 
 Channel::Message FluidServer::answer(const Command& command, std::size_t count, int signal) {
-  const unsigned asked = command.meeting.needed;
+  const unsigned asked = command.coupling_step.needed;
   Channel::Message message(kAnswerHead + count * wire::samples_row_bytes(asked));
-  wire::write_samples_head(message.data(), command.meeting.number, count, asked, signal);
+  wire::write_samples_head(message.data(), command.coupling_step.number, count, asked, signal);
   return message;
 }
 
-void FluidServer::answer_meeting(FluidPeer& fluid, const Command& command) {
+void FluidServer::answer_coupling_step(FluidPeer& fluid, const Command& command) {
   const double begun = MPI_Wtime();
-  const std::vector<wire::Rows> parts = by_lanes_ ? rows_of_lanes(command) : dealt_rows(command);
-  guests_.load(parts, extents_, command.meeting.needed);
+  const std::vector<wire::Rows> parts = by_rank_connections_ ? rows_of_rank_connections(command) : dealt_rows(command);
+  particlePoints_.load(parts, extents_, command.coupling_step.needed);
   const double ready = MPI_Wtime();
 
-  const int signal = fluid.meet(command.meeting, guests_.particles(), guests_.samples());
+  const int signal = fluid.meet(command.coupling_step, particlePoints_.particles(), particlePoints_.samples());
 
   const double met = MPI_Wtime();
   Channel::Message of_root = channel_ ? answer(command, command.count, signal) : Channel::Message();
   std::byte* const to = channel_ ? of_root.data() + kAnswerHead : rows_.data();
   auto part = parts.begin();
   std::size_t first = 0;
-  if (channel_ || !by_lanes_) {
-    guests_.pack_samples(0, part->count, to);
+  if (channel_ || !by_rank_connections_) {
+    particlePoints_.pack_samples(0, part->count, to);
     first = part++->count;
   }
-  if (!by_lanes_)
-    gather_rows(ranks_, to, static_cast<int>(first), wire::samples_row_bytes(command.meeting.needed),
+  if (!by_rank_connections_)
+    gather_rows(ranks_, to, static_cast<int>(first), wire::samples_row_bytes(command.coupling_step.needed),
                 even_shares(ranks_, command.count), to);
-  for (const Lane& lane : lanes_) {
+  for (const RankConnection& connection : rank_connections_) {
     Channel::Message message = answer(command, part->count, signal);
-    guests_.pack_samples(first, part->count, message.data() + kAnswerHead);
+    particlePoints_.pack_samples(first, part->count, message.data() + kAnswerHead);
     first += part++->count;
-    send(*lane.channel, std::move(message));
+    send(*connection.channel, std::move(message));
   }
   // Before sending: the DEM side begins at once, and may take this processor.
   transport_seconds_ = MPI_Wtime() - met + ready - begun;
@@ -196,7 +199,7 @@ void FluidServer::answer_checkpoint(FluidPeer& fluid, const Command& command) {
 void FluidServer::refuse(const std::string& sentence) noexcept {
   if (channel_)
     channel_->refuse(sentence);
-  lanes_.refuse(sentence);
+  rank_connections_.refuse(sentence);
 }
 
 void FluidServer::serve(FluidPeer& fluid) {
@@ -207,8 +210,8 @@ void FluidServer::serve(FluidPeer& fluid) {
         return;
       if (command.kind == wire::Kind::dem_terms)
         answer_terms(fluid, command);
-      else if (command.kind == wire::Kind::meeting)
-        answer_meeting(fluid, command);
+      else if (command.kind == wire::Kind::coupling_step)
+        answer_coupling_step(fluid, command);
       else if (command.kind == wire::Kind::checkpoint)
         answer_checkpoint(fluid, command);
       else if (command.kind == wire::Kind::advance)

@@ -6,7 +6,7 @@
 #include "link/fluid_peer.h"
 #include "link/socket/address.h"
 #include "link/socket/channel.h"
-#include "link/socket/lanes.h"
+#include "link/socket/rank_connections.h"
 
 #include <mpi.h>
 
@@ -16,20 +16,21 @@
 
 namespace eccentra::link {
 
-/// Rank 0 talks; the rows of the others travel on lanes of their own. Where there are none, they are gathered on rank 0
-/// and their samples scattered: its time and memory then grow with all particles.
+/// Rank 0 talks; the rows of the others travel on rank connections of their own. Where there are none, they are
+/// gathered on rank 0 and their samples scattered: its time and memory then grow with all particles.
 class SocketPeer : public FluidPeer {
  public:
-  enum class Rows { on_lanes, over_root }; ///< wanted; on_lanes where that is possible
+  enum class Rows { on_rank_connections, over_root }; ///< wanted; on_rank_connections where that is possible
 
   /// Collective over `ranks`; returns before the fluid side has come. Throws Refusal on every rank if the address
   /// cannot be used.
-  SocketPeer(MPI_Comm ranks, const Address& address, const Patience& patience, Rows rows = Rows::on_lanes);
+  SocketPeer(MPI_Comm ranks, const Address& address, const Timeout& patience, Rows rows = Rows::on_rank_connections);
   /// Tells the fluid side that all went well, unless it did not.
   ~SocketPeer() override;
 
   FluidTerms agree(const DemTerms& dem) override;
-  int meet(const Meeting& meeting, const ParticleArrays& particles, const fluid::FluidSamples& samples) override;
+  int meet(const CouplingStep& coupling_step, const ParticleArrays& particles,
+           const link::FluidSamples& samples) override;
   void advance() override;
   std::string checkpoint(const CheckpointMark& mark) override;
   void run_ended() override;
@@ -45,22 +46,22 @@ class SocketPeer : public FluidPeer {
   template <class Work> auto or_leave(Work&& work) -> decltype(work());
   template <class Work> wire::Bytes on_root_or_leave(Work&& work);
   /// Once, when terms have been agreed for the first time.
-  void open_lanes(std::uint32_t count);
+  void open_rank_connections(std::uint32_t count);
 
   MPI_Comm ranks_;
   Address address_;
-  Patience patience_;
+  Timeout timeout_;
   std::unique_ptr<Channel> channel_; ///< of rank 0
-  Lanes lanes_;
-  bool by_lanes_ = false;
-  bool settled_ = false;          ///< whether there are lanes
-  std::uint32_t lanes_asked_ = 0; ///< in all terms of this connection
+  RankConnections rank_connections_;
+  bool by_rank_connections_ = false;
+  bool settled_ = false;                     ///< whether there are rank connections
+  std::uint32_t rank_connections_asked_ = 0; ///< in all terms of this connection
   bool left_ = false;
   std::string why_over_root_;
   bool extents_ = false;
-  std::int64_t meetings_ = 0;
+  std::int64_t coupling_steps_ = 0;
   std::vector<std::byte> rows_;  ///< of the ranks that do not talk
-  double transport_seconds_ = 0; ///< of the last meeting, without the fluid's own time
+  double transport_seconds_ = 0; ///< of the last coupling step, without the fluid's own time
 };
 
 } // namespace eccentra::link

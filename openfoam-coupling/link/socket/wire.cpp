@@ -16,7 +16,7 @@ constexpr char kMagic[8] = {'E', 'C', 'C', 'E', 'N', 'T', 'R', 'A'};
 /// Reads differently on a machine of the other byte order.
 constexpr std::uint32_t kByteOrder = 0x01020304;
 constexpr int kQuantities = 5;
-/// Doubles of each fluid::Quantity, in the order of their bits.
+/// Doubles of each link::Quantity, in the order of their bits.
 constexpr std::size_t kDoublesOf[kQuantities] = {3, 1, 3, 3, 3};
 constexpr std::size_t kParticleDoubles = 3 + 1 + 3 + 1;
 constexpr std::size_t kVolumeAt = 3;
@@ -79,9 +79,10 @@ Bytes with_header(Kind kind, std::size_t body) {
 constexpr std::size_t kDemTermsBytes = bytes_of<DemTerms>(dem_terms_fields);
 constexpr std::size_t kFluidTermsBytes = bytes_of<FluidTerms>(fluid_terms_fields);
 constexpr std::size_t kMarkBytes = bytes_of<CheckpointMark>(mark_fields);
-static_assert(kMeetingBytes == sizeof(std::uint64_t) + sizeof(std::uint32_t) + bytes_of<Meeting>(meeting_fields));
-static_assert(kRowsBytes ==
-              sizeof(std::uint64_t) + sizeof(std::uint32_t) + sizeof(RowsMark::lane) + sizeof(RowsMark::meeting));
+static_assert(kCouplingStepBytes ==
+              sizeof(std::uint64_t) + sizeof(std::uint32_t) + bytes_of<CouplingStep>(coupling_step_fields));
+static_assert(kRowsBytes == sizeof(std::uint64_t) + sizeof(std::uint32_t) + sizeof(RowsMark::connection) +
+                                sizeof(RowsMark::coupling_step));
 /// Largest signal number of any system.
 constexpr std::uint32_t kMostSignal = 64;
 
@@ -125,7 +126,7 @@ Rows particle_rows(const Reader& in, std::size_t count, bool extents) {
   rows.data = in.here();
   for (std::size_t i = 0; i < rows.count; ++i) {
     const std::byte* row = rows.data + i * row_bytes;
-    check_finite(row, (row_bytes - sizeof(Ticket)) / sizeof(double), i, "particle row");
+    check_finite(row, (row_bytes - sizeof(CellHint)) / sizeof(double), i, "particle row");
     double volume;
     std::memcpy(&volume, row + kVolumeAt * sizeof volume, sizeof volume);
     if (!(volume > 0))
@@ -145,18 +146,18 @@ void check_extents(Reader& in, bool extents) {
 } // namespace
 
 std::size_t particle_row_bytes(bool extents) {
-  return sizeof(double) * (kParticleDoubles + (extents ? kExtentDoubles : 0)) + sizeof(Ticket);
+  return sizeof(double) * (kParticleDoubles + (extents ? kExtentDoubles : 0)) + sizeof(CellHint);
 }
 
 std::size_t samples_row_bytes(unsigned quantities) {
   std::size_t doubles = 0;
   for (int bit = 0; bit < kQuantities; ++bit)
     doubles += quantities & (1u << bit) ? kDoublesOf[bit] : 0;
-  return sizeof(double) * doubles + sizeof(Ticket);
+  return sizeof(double) * doubles + sizeof(CellHint);
 }
 
-std::size_t most_bytes() {
-  return kHeaderBytes + kMeetingBytes + kMostParticles * particle_row_bytes(true);
+std::size_t max_bytes() {
+  return kHeaderBytes + kCouplingStepBytes + kMostParticles * particle_row_bytes(true);
 }
 
 Bytes encode(const DemTerms& terms) {
@@ -174,7 +175,7 @@ DemTerms decode_dem_terms(View message) {
   if (terms.particles < 0 || std::uint64_t(terms.particles) > kMostParticles)
     throw Refusal("the DEM side has " + std::to_string(terms.particles) +
                   " particles but link socket carries at most " + std::to_string(kMostParticles) + ": use link solver");
-  if (terms.lanes > kMostLanes)
+  if (terms.rank_connections > kMaxRankConnections)
     broken("asks for more lanes than there can be");
   return terms;
 }
@@ -250,28 +251,28 @@ std::string decode_checkpointed(View message) {
   return decode_text(message, Kind::checkpointed);
 }
 
-Bytes encode_no_lanes(const std::string& why) {
-  return encode_text(Kind::no_lanes, why);
+Bytes encode_no_rank_connections(const std::string& why) {
+  return encode_text(Kind::no_rank_connections, why);
 }
 
-std::string decode_no_lanes(View message) {
-  return decode_text(message, Kind::no_lanes);
+std::string decode_no_rank_connections(View message) {
+  return decode_text(message, Kind::no_rank_connections);
 }
 
-Bytes encode_lanes(const std::vector<std::uint32_t>& numbers) {
-  Bytes message = with_header(Kind::lanes, sizeof(std::uint32_t) * numbers.size());
+Bytes encode_rank_connections(const std::vector<std::uint32_t>& numbers) {
+  Bytes message = with_header(Kind::rank_connections, sizeof(std::uint32_t) * numbers.size());
   Writer(message.data() + kHeaderBytes).raw(numbers.data(), sizeof(std::uint32_t) * numbers.size());
   return message;
 }
 
-std::vector<std::uint32_t> decode_lanes(View message, std::size_t asked) {
-  Reader in = body_of(message, Kind::lanes);
+std::vector<std::uint32_t> decode_rank_connections(View message, std::size_t asked) {
+  Reader in = body_of(message, Kind::rank_connections);
   if (in.left() != sizeof(std::uint32_t) * asked)
     broken("names another number of lanes than was asked for");
   std::vector<std::uint32_t> numbers(asked);
   for (std::uint32_t& number : numbers) {
     in.plain(number);
-    if (number < 1 || number > kMostLanes)
+    if (number < 1 || number > kMaxRankConnections)
       broken("names a lane that cannot exist");
   }
   return numbers;
@@ -293,24 +294,24 @@ Kind kind_of(View message) {
   return kind;
 }
 
-void write_meeting_head(std::byte* message, const Meeting& meeting, std::size_t count, bool extents) {
-  write_header(message, Kind::meeting, kMeetingBytes + count * particle_row_bytes(extents));
+void write_coupling_step_head(std::byte* message, const CouplingStep& coupling_step, std::size_t count, bool extents) {
+  write_header(message, Kind::coupling_step, kCouplingStepBytes + count * particle_row_bytes(extents));
   Writer out(message + kHeaderBytes);
   out.plain(std::uint64_t(count));
   out.yes_or_no(extents);
-  meeting_fields(out, meeting);
+  coupling_step_fields(out, coupling_step);
 }
 
-Rows decode_meeting(View message, bool extents, Meeting& meeting) {
-  Reader in = body_of(message, Kind::meeting);
+Rows decode_coupling_step(View message, bool extents, CouplingStep& coupling_step) {
+  Reader in = body_of(message, Kind::coupling_step);
   const std::size_t count = checked_count(in);
   check_extents(in, extents);
-  meeting_fields(in, meeting);
-  const DemTotals& totals = meeting.totals;
-  if (meeting.elapsed < 0 || totals.particles < 0 || std::uint64_t(totals.particles) > kMostParticles ||
+  coupling_step_fields(in, coupling_step);
+  const DemTotals& totals = coupling_step.totals;
+  if (coupling_step.elapsed < 0 || totals.particles < 0 || std::uint64_t(totals.particles) > kMostParticles ||
       std::uint64_t(totals.particles) < count)
     broken("contradicts itself about time or particles");
-  if (meeting.load.ranks < 1)
+  if (coupling_step.load.ranks < 1)
     broken("comes from no rank");
   return particle_rows(in, count, extents);
 }
@@ -320,32 +321,32 @@ void write_rows_head(std::byte* message, const RowsMark& mark, std::size_t count
   Writer out(message + kHeaderBytes);
   out.plain(std::uint64_t(count));
   out.yes_or_no(extents);
-  out.plain(mark.lane);
-  out.plain(mark.meeting);
+  out.plain(mark.connection);
+  out.plain(mark.coupling_step);
 }
 
 Rows decode_rows(View message, bool extents, const RowsMark& mark) {
   Reader in = body_of(message, Kind::rows);
   const std::size_t count = checked_count(in);
   check_extents(in, extents);
-  if (in.take<std::uint32_t>() != mark.lane)
+  if (in.take<std::uint32_t>() != mark.connection)
     broken("comes from another rank than its lane");
-  if (in.take<std::int64_t>() != mark.meeting)
+  if (in.take<std::int64_t>() != mark.coupling_step)
     broken("belongs to another meeting");
   return particle_rows(in, count, extents);
 }
 
-void write_samples_head(std::byte* message, std::int64_t meeting, std::size_t count, unsigned quantities,
+void write_samples_head(std::byte* message, std::int64_t coupling_step, std::size_t count, unsigned quantities,
                         int stop_signal) {
   write_header(message, Kind::samples, kSamplesBytes + count * samples_row_bytes(quantities));
   Writer out(message + kHeaderBytes);
   out.plain(std::uint64_t(count));
   out.quantities(quantities);
   out.plain(std::uint32_t(stop_signal));
-  out.plain(meeting);
+  out.plain(coupling_step);
 }
 
-Rows decode_samples(View message, std::int64_t meeting, std::size_t count, unsigned quantities) {
+Rows decode_samples(View message, std::int64_t coupling_step, std::size_t count, unsigned quantities) {
   Reader in = body_of(message, Kind::samples);
   Rows rows;
   rows.count = checked_count(in);
@@ -355,26 +356,26 @@ Rows decode_samples(View message, std::int64_t meeting, std::size_t count, unsig
   if (signal > kMostSignal)
     broken("names a signal that does not exist");
   rows.stop_signal = static_cast<int>(signal);
-  if (in.take<std::int64_t>() != meeting || rows.count != count || sent != quantities)
+  if (in.take<std::int64_t>() != coupling_step || rows.count != count || sent != quantities)
     broken("answers another question than was asked");
   const std::size_t row_bytes = samples_row_bytes(quantities);
   if (in.left() != rows.count * row_bytes)
     broken("does not hold the samples that it states");
   rows.data = in.here();
   for (std::size_t i = 0; i < rows.count; ++i)
-    check_finite(rows.data + i * row_bytes, (row_bytes - sizeof(Ticket)) / sizeof(double), i, "samples row");
+    check_finite(rows.data + i * row_bytes, (row_bytes - sizeof(CellHint)) / sizeof(double), i, "samples row");
   return rows;
 }
 
-void check_tickets(Rows rows, bool extents, const std::vector<std::int32_t>& cells_of_rank) {
+void check_cell_hints(Rows rows, bool extents, const std::vector<std::int32_t>& cells_of_rank) {
   const std::size_t row_bytes = particle_row_bytes(extents);
   for (std::size_t i = 0; i < rows.count; ++i) {
-    Ticket ticket;
-    std::memcpy(&ticket, rows.data + (i + 1) * row_bytes - sizeof ticket, sizeof ticket);
-    if (ticket.rank < 0)
+    CellHint cell_hint;
+    std::memcpy(&cell_hint, rows.data + (i + 1) * row_bytes - sizeof cell_hint, sizeof cell_hint);
+    if (cell_hint.rank < 0)
       continue;
-    if (std::size_t(ticket.rank) >= cells_of_rank.size() || ticket.cell < 0 ||
-        ticket.cell >= cells_of_rank[ticket.rank])
+    if (std::size_t(cell_hint.rank) >= cells_of_rank.size() || cell_hint.cell < 0 ||
+        cell_hint.cell >= cells_of_rank[cell_hint.rank])
       broken("holds a particle that was found in a cell that does not exist");
   }
 }
@@ -388,11 +389,11 @@ void pack_particles(const ParticleArrays& particles, bool extents, std::byte* ro
     out.plain(particles.drag_coefficient[i]);
     if (extents)
       out.raw(particles.extent[i], sizeof particles.extent[i]);
-    out.plain(particles.ticket[i]);
+    out.plain(particles.cell_hint[i]);
   }
 }
 
-void Guests::load(const std::vector<Rows>& parts, bool extents, unsigned quantities) {
+void ParticlePoints::load(const std::vector<Rows>& parts, bool extents, unsigned quantities) {
   count_ = 0;
   for (const Rows& rows : parts)
     count_ += rows.count;
@@ -403,7 +404,7 @@ void Guests::load(const std::vector<Rows>& parts, bool extents, unsigned quantit
   impulse_.resize(3 * count_);
   drag_.resize(count_);
   extent_.resize(extents ? kExtentDoubles * count_ + 1 : 0);
-  ticket_.resize(count_);
+  cell_hint_.resize(count_);
   const std::size_t row_bytes = particle_row_bytes(extents);
   std::size_t i = 0;
   for (const Rows& rows : parts) {
@@ -419,9 +420,9 @@ void Guests::load(const std::vector<Rows>& parts, bool extents, unsigned quantit
       take(&drag_[i], sizeof(double));
       if (extents)
         take(&extent_[kExtentDoubles * i], kExtentDoubles * sizeof(double));
-      take(&ticket_[i], sizeof(Ticket));
-      if (ticket_[i].rank < 0)
-        ticket_[i] = Ticket{};
+      take(&cell_hint_[i], sizeof(CellHint));
+      if (cell_hint_[i].rank < 0)
+        cell_hint_[i] = CellHint{};
     }
   }
   int bit = 0;
@@ -429,7 +430,7 @@ void Guests::load(const std::vector<Rows>& parts, bool extents, unsigned quantit
     size_for(*values, count_, quantities, bit++);
 }
 
-ParticleArrays Guests::particles() {
+ParticleArrays ParticlePoints::particles() {
   ParticleArrays arrays;
   arrays.count = count_;
   arrays.position = reinterpret_cast<const double(*)[3]>(position_.data());
@@ -438,24 +439,24 @@ ParticleArrays Guests::particles() {
   arrays.drag_coefficient = drag_.data();
   if (extents_)
     arrays.extent = reinterpret_cast<const double(*)[kExtentDoubles]>(extent_.data());
-  arrays.ticket = ticket_.data();
+  arrays.cell_hint = cell_hint_.data();
   return arrays;
 }
 
-fluid::FluidSamples Guests::samples() {
+link::FluidSamples ParticlePoints::samples() {
   using Vectors = double(*)[3];
-  fluid::FluidSamples samples;
-  samples.velocity = reinterpret_cast<Vectors>(as_double(velocity_, quantities_ & fluid::kVelocity));
-  samples.fraction = as_double(fraction_, quantities_ & fluid::kFraction);
+  link::FluidSamples samples;
+  samples.velocity = reinterpret_cast<Vectors>(as_double(velocity_, quantities_ & link::kVelocity));
+  samples.fraction = as_double(fraction_, quantities_ & link::kFraction);
   samples.pressure_gradient =
-      reinterpret_cast<Vectors>(as_double(pressure_gradient_, quantities_ & fluid::kPressureGradient));
+      reinterpret_cast<Vectors>(as_double(pressure_gradient_, quantities_ & link::kPressureGradient));
   samples.stress_divergence =
-      reinterpret_cast<Vectors>(as_double(stress_divergence_, quantities_ & fluid::kStressDivergence));
-  samples.vorticity = reinterpret_cast<Vectors>(as_double(vorticity_, quantities_ & fluid::kVorticity));
+      reinterpret_cast<Vectors>(as_double(stress_divergence_, quantities_ & link::kStressDivergence));
+  samples.vorticity = reinterpret_cast<Vectors>(as_double(vorticity_, quantities_ & link::kVorticity));
   return samples;
 }
 
-void Guests::pack_samples(std::size_t first, std::size_t count, std::byte* rows) const {
+void ParticlePoints::pack_samples(std::size_t first, std::size_t count, std::byte* rows) const {
   Writer out(rows);
   const std::vector<double>* const arrays[kQuantities] = {&velocity_, &fraction_, &pressure_gradient_,
                                                           &stress_divergence_, &vorticity_};
@@ -463,11 +464,11 @@ void Guests::pack_samples(std::size_t first, std::size_t count, std::byte* rows)
     for (int bit = 0; bit < kQuantities; ++bit)
       if (quantities_ & (1u << bit))
         out.raw(arrays[bit]->data() + i * kDoublesOf[bit], kDoublesOf[bit] * sizeof(double));
-    out.plain(ticket_[i]);
+    out.plain(cell_hint_[i]);
   }
 }
 
-void unpack_samples(Rows rows, unsigned quantities, const fluid::FluidSamples& samples, Ticket* tickets) {
+void unpack_samples(Rows rows, unsigned quantities, const link::FluidSamples& samples, CellHint* cell_hints) {
   double* const arrays[kQuantities] = {reinterpret_cast<double*>(samples.velocity), samples.fraction,
                                        reinterpret_cast<double*>(samples.pressure_gradient),
                                        reinterpret_cast<double*>(samples.stress_divergence),
@@ -482,8 +483,8 @@ void unpack_samples(Rows rows, unsigned quantities, const fluid::FluidSamples& s
         std::memcpy(arrays[bit] + i * kDoublesOf[bit], from, bytes);
       from += bytes;
     }
-    std::memcpy(&tickets[i], from, sizeof(Ticket));
-    from += sizeof(Ticket);
+    std::memcpy(&cell_hints[i], from, sizeof(CellHint));
+    from += sizeof(CellHint);
   }
 }
 

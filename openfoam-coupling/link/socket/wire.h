@@ -14,32 +14,32 @@
 namespace eccentra::link::wire {
 
 enum class Kind : std::uint32_t {
-  dem_terms = 1,    ///< DEM to fluid: DemTerms
-  fluid_terms = 2,  ///< fluid to DEM: FluidTerms
-  refusal = 3,      ///< either way: one sentence; the sender goes on no longer. Readable in every version
-  meeting = 4,      ///< DEM to fluid: Meeting and one row per particle
-  samples = 5,      ///< fluid to DEM: one row per particle, in the order received
-  run_ended = 6,    ///< DEM to fluid: this run of the script has ended as intended
-  farewell = 7,     ///< DEM to fluid: the script has ended as intended
-  checkpoint = 8,   ///< DEM to fluid: write the state of the last meeting under this mark
-  checkpointed = 9, ///< fluid to DEM: it is on the disk, and where
-  advance = 10,     ///< DEM to fluid, with overlap: DEM begins an interval, and so shall the fluid
-  lanes = 11,       ///< fluid to DEM, after the terms: where the lanes are that those asked for
-  no_lanes = 12,    ///< fluid to DEM instead: why there are none, in one sentence; all rows travel over rank 0
-  rows = 13         ///< DEM to fluid, on a lane: the particles of one rank, whose meeting comes from rank 0
+  dem_terms = 1,            ///< DEM to fluid: DemTerms
+  fluid_terms = 2,          ///< fluid to DEM: FluidTerms
+  refusal = 3,              ///< either way: one sentence; the sender goes on no longer. Readable in every version
+  coupling_step = 4,        ///< DEM to fluid: CouplingStep and one row per particle
+  samples = 5,              ///< fluid to DEM: one row per particle, in the order received
+  run_ended = 6,            ///< DEM to fluid: this run of the script has ended as intended
+  farewell = 7,             ///< DEM to fluid: the script has ended as intended
+  checkpoint = 8,           ///< DEM to fluid: write the state of the last coupling step under this mark
+  checkpointed = 9,         ///< fluid to DEM: it is on the disk, and where
+  advance = 10,             ///< DEM to fluid, with overlap: DEM begins an interval, and so shall the fluid
+  rank_connections = 11,    ///< fluid to DEM, after the terms: where the rank connections are that those asked for
+  no_rank_connections = 12, ///< fluid to DEM instead: why there are none, in one sentence; all rows travel over rank 0
+  rows = 13 ///< DEM to fluid, on a rank connection: the particles of one rank, whose coupling step comes from rank 0
 };
 constexpr Kind kLastKind = Kind::rows;
 
 /// Bytes before the body of every message.
 constexpr std::size_t kHeaderBytes = 32;
-/// Bytes between the header and the rows of a meeting.
-constexpr std::size_t kMeetingBytes = 240;
+/// Bytes between the header and the rows of a coupling step.
+constexpr std::size_t kCouplingStepBytes = 240;
 /// Bytes between the header and the rows of the samples.
 constexpr std::size_t kSamplesBytes = 24;
 /// Bytes between the header and the rows of a rank.
 constexpr std::size_t kRowsBytes = 24;
-/// Numbers of lanes are those of ports, or of ranks.
-constexpr std::uint32_t kMostLanes = 65535;
+/// Numbers of rank connections are those of ports, or of ranks.
+constexpr std::uint32_t kMaxRankConnections = 65535;
 /// No message speaks of more particles; rows stay below what MPI counts in one call.
 constexpr std::uint64_t kMostParticles = 10'000'000;
 /// Longest sentence of a refusal.
@@ -47,12 +47,12 @@ constexpr std::size_t kMostText = 2048;
 /// All quantities that a message may ask for.
 constexpr unsigned kKnownQuantities = 31;
 
-/// Bytes of one particle to the fluid: position, volume, impulse, drag coefficient, [extent,] ticket.
+/// Bytes of one particle to the fluid: position, volume, impulse, drag coefficient, [extent,] cell hint.
 std::size_t particle_row_bytes(bool extents);
-/// Bytes of one particle's samples: the quantities asked for in the order of their bits, ticket.
+/// Bytes of one particle's samples: the quantities asked for in the order of their bits, cell hint.
 std::size_t samples_row_bytes(unsigned quantities);
 /// No message of this protocol is longer.
-std::size_t most_bytes();
+std::size_t max_bytes();
 
 /// A message as received; not owned.
 struct View {
@@ -69,20 +69,20 @@ Bytes encode_refusal(const std::string& sentence);
 Bytes encode(const CheckpointMark& mark);
 Bytes encode_checkpointed(const std::string& place);
 Bytes encode_bare(Kind kind); ///< run_ended, farewell or advance
-Bytes encode_lanes(const std::vector<std::uint32_t>& numbers);
-Bytes encode_no_lanes(const std::string& why);
-/// `message` has room for kHeaderBytes + kMeetingBytes; `count` rows follow them.
-void write_meeting_head(std::byte* message, const Meeting& meeting, std::size_t count, bool extents);
-/// Says whose rows of which meeting these are.
+Bytes encode_rank_connections(const std::vector<std::uint32_t>& numbers);
+Bytes encode_no_rank_connections(const std::string& why);
+/// `message` has room for kHeaderBytes + kCouplingStepBytes; `count` rows follow them.
+void write_coupling_step_head(std::byte* message, const CouplingStep& coupling_step, std::size_t count, bool extents);
+/// Says whose rows of which coupling step these are.
 struct RowsMark {
-  std::uint32_t lane = 0; ///< rank of DEM
-  std::int64_t meeting = 0;
+  std::uint32_t connection = 0; ///< rank of DEM
+  std::int64_t coupling_step = 0;
 };
 /// `message` has room for kHeaderBytes + kRowsBytes; `count` rows follow them.
 void write_rows_head(std::byte* message, const RowsMark& mark, std::size_t count, bool extents);
 /// `message` has room for kHeaderBytes + kSamplesBytes; `count` rows follow them. `stop_signal`: the one that asks the
 /// fluid side to stop, or 0.
-void write_samples_head(std::byte* message, std::int64_t meeting, std::size_t count, unsigned quantities,
+void write_samples_head(std::byte* message, std::int64_t coupling_step, std::size_t count, unsigned quantities,
                         int stop_signal = 0);
 
 /// Rows of a message, still in it.
@@ -103,30 +103,31 @@ FluidTerms decode_fluid_terms(View message);
 std::string decode_refusal(View message);
 CheckpointMark decode_checkpoint(View message);
 std::string decode_checkpointed(View message);
-/// `asked`: the number of lanes that the terms asked for.
-std::vector<std::uint32_t> decode_lanes(View message, std::size_t asked);
-std::string decode_no_lanes(View message);
-/// `extents` as the DEM side's terms said. Volumes are positive. With lanes the rows are some of the particles.
-Rows decode_meeting(View message, bool extents, Meeting& meeting);
+/// `asked`: the number of rank connections that the terms asked for.
+std::vector<std::uint32_t> decode_rank_connections(View message, std::size_t asked);
+std::string decode_no_rank_connections(View message);
+/// `extents` as the DEM side's terms said. Volumes are positive. With rank connections the rows are some of the
+/// particles.
+Rows decode_coupling_step(View message, bool extents, CouplingStep& coupling_step);
 /// `mark` as it must be.
 Rows decode_rows(View message, bool extents, const RowsMark& mark);
-/// `meeting`, `count` and `quantities` as the meeting asked for.
-Rows decode_samples(View message, std::int64_t meeting, std::size_t count, unsigned quantities);
-/// Throws Refusal unless each ticket is blank or names a rank that is there and one of its cells.
-void check_tickets(Rows rows, bool extents, const std::vector<std::int32_t>& cells_of_rank);
+/// `coupling step`, `count` and `quantities` as the coupling step asked for.
+Rows decode_samples(View message, std::int64_t coupling_step, std::size_t count, unsigned quantities);
+/// Throws Refusal unless each cell hint is blank or names a rank that is there and one of its cells.
+void check_cell_hints(Rows rows, bool extents, const std::vector<std::int32_t>& cells_of_rank);
 
 /// Writes all rows of `particles` to `rows`.
 void pack_particles(const ParticleArrays& particles, bool extents, std::byte* rows);
 
-/// Particles unpacked from rows, with room for their samples. Keeps its memory from one meeting to the next.
-class Guests {
+/// Particles unpacked from rows, with room for their samples. Keeps its memory from one coupling step to the next.
+class ParticlePoints {
  public:
   /// The rows of all `parts`, one after the other.
   void load(const std::vector<Rows>& parts, bool extents, unsigned quantities);
   ParticleArrays particles();
   /// Arrays of the quantities asked for, null for the others, also where there is no particle.
-  fluid::FluidSamples samples();
-  /// Writes samples and tickets of `count` particles from `first` on to `rows`.
+  link::FluidSamples samples();
+  /// Writes samples and cell hint of `count` particles from `first` on to `rows`.
   void pack_samples(std::size_t first, std::size_t count, std::byte* rows) const;
 
  private:
@@ -134,11 +135,11 @@ class Guests {
   unsigned quantities_ = 0;
   bool extents_ = false;
   std::vector<double> position_, volume_, impulse_, drag_, extent_;
-  std::vector<Ticket> ticket_;
+  std::vector<CellHint> cell_hint_;
   std::vector<double> velocity_, fraction_, pressure_gradient_, stress_divergence_, vorticity_;
 };
 
-/// Puts samples and tickets where the DEM side wants them; a quantity whose array is null is passed over.
-void unpack_samples(Rows rows, unsigned quantities, const fluid::FluidSamples& samples, Ticket* tickets);
+/// Puts samples and cell hint where the DEM side wants them; a quantity whose array is null is passed over.
+void unpack_samples(Rows rows, unsigned quantities, const link::FluidSamples& samples, CellHint* cell_hints);
 
 } // namespace eccentra::link::wire

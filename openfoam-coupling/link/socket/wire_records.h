@@ -47,7 +47,7 @@ template <class Way, class Record> constexpr void dem_terms_fields(Way& way, Rec
   flow_curve_fields(way, terms.rheology);
   numbers(way, terms.gravity);
   mark_fields(way, terms.resumes);
-  way.plain(terms.lanes);
+  way.plain(terms.rank_connections);
   way.unused();
 }
 
@@ -80,22 +80,22 @@ template <class Way, class Record> constexpr void totals_fields(Way& way, Record
 
 template <class Way, class Record> constexpr void load_fields(Way& way, Record& load) {
   way.plain(load.ranks);
-  way.plain(load.most_particles);
+  way.plain(load.max_particles);
   way.number(load.mean_seconds);
-  way.number(load.most_seconds);
+  way.number(load.max_seconds);
 }
 
-/// All of a meeting but the number and the length of its rows, which come first.
-template <class Way, class Record> constexpr void meeting_fields(Way& way, Record& meeting) {
-  way.quantities(meeting.needed);
-  way.number(meeting.elapsed);
-  way.number(meeting.dem_seconds);
-  way.number(meeting.pack_seconds);
-  way.plain(meeting.steps_done);
-  way.plain(meeting.steps_total);
-  way.plain(meeting.number);
-  totals_fields(way, meeting.totals);
-  load_fields(way, meeting.load);
+/// All of a coupling step but the number and the length of its rows, which come first.
+template <class Way, class Record> constexpr void coupling_step_fields(Way& way, Record& coupling_step) {
+  way.quantities(coupling_step.needed);
+  way.number(coupling_step.elapsed);
+  way.number(coupling_step.dem_seconds);
+  way.number(coupling_step.pack_seconds);
+  way.plain(coupling_step.steps_done);
+  way.plain(coupling_step.steps_total);
+  way.plain(coupling_step.number);
+  totals_fields(way, coupling_step.totals);
+  load_fields(way, coupling_step.load);
 }
 
 /// Bytes of a record, given its description: kBytes<DemTerms>(dem_terms_fields<Sizer, DemTerms>).

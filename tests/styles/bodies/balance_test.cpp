@@ -20,7 +20,7 @@ TEST(BalancedPlanes, MoveHalfwayAtMostAndReachEqualShares) {
   std::vector<double> counts(1000, 0.), planes = {0, 0.25, 0.5, 0.75, 1};
   std::fill(counts.begin(), counts.begin() + 100, 1.);
   for (int round = 0; round < 20; ++round) {
-    const auto next = cluster::balanced_planes(planes, counts, 0.01);
+    const auto next = contact::balanced_planes(planes, counts, 0.01);
     for (int p = 1; p < 4; ++p) {
       EXPECT_GE(next[p], planes[p - 1]);
       EXPECT_LE(next[p], planes[p + 1]);
@@ -32,10 +32,10 @@ TEST(BalancedPlanes, MoveHalfwayAtMostAndReachEqualShares) {
   // A slab stays as wide as it must, and nobody at all changes nothing.
   planes = {0, 0.25, 0.5, 0.75, 1};
   for (int round = 0; round < 20; ++round)
-    planes = cluster::balanced_planes(planes, counts, 0.1);
+    planes = contact::balanced_planes(planes, counts, 0.1);
   for (int p = 1; p <= 4; ++p)
     EXPECT_GE(planes[p] - planes[p - 1], 0.1 - 1e-12);
-  EXPECT_EQ(cluster::balanced_planes(planes, std::vector<double>(1000, 0.), 0.1), planes);
+  EXPECT_EQ(contact::balanced_planes(planes, std::vector<double>(1000, 0.), 0.1), planes);
 }
 
 namespace {
@@ -90,7 +90,7 @@ Outcome run(MPI_Comm ranks, bool balanced) {
     if (i < 0)
       continue;
     double* next = std::copy_n(session.atom().x[i], 3, outcome.bodies[tag - 1].data());
-    std::copy_n(cluster::FixBodies::require(&session.lammps()).quaternion(i), 4, next);
+    std::copy_n(styles::FixClusterBodies::require(&session.lammps()).quaternion(i), 4, next);
   }
   MPI_Allreduce(MPI_IN_PLACE, outcome.bodies[0].data(), 7 * count, MPI_DOUBLE, MPI_SUM, ranks);
   return outcome;

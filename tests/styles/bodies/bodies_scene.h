@@ -4,7 +4,7 @@
 #pragma once
 
 #include "shape/cluster_shape.h"
-#include "styles/bodies/bodies.h"
+#include "styles/bodies/fix_cluster_bodies.h"
 #include "support/liggghts_session.h"
 
 #include "atom_vec.h"
@@ -38,8 +38,8 @@ inline void open_box(LiggghtsSession& session, const Material& material, const s
       "\nfix m4 all property/global coefficientFriction peratomtypepair 1 " + std::to_string(material.friction) + "\n");
 }
 
-inline void use_clusters(LiggghtsSession& session, const std::string& words = "") {
-  session.script("pair_style gran/cluster model hertz tangential history rolling_friction off " + words +
+inline void use_clusters(LiggghtsSession& session, const std::string& arguments = "") {
+  session.script("pair_style gran/cluster model hertz tangential history rolling_friction off " + arguments +
                  "\npair_coeff * *\nfix integrate all nve/cluster\n");
 }
 
@@ -82,13 +82,13 @@ inline void add_sphere(LiggghtsSession& session, const Start& start, double radi
 
 inline void add_body(LiggghtsSession& session, const shape::ClusterShape& shape, const Start& start,
                      double density = 2619) {
-  cluster::FixBodies& bodies = cluster::FixBodies::require(&session.lammps());
+  styles::FixClusterBodies& bodies = styles::FixClusterBodies::require(&session.lammps());
   const int id = bodies.shapes().add(shape);
   const int i = create_atom(session, start);
   const auto& q = start.orientation;
-  const double words[4] = {q.w(), q.x(), q.y(), q.z()};
+  const double arguments[4] = {q.w(), q.x(), q.y(), q.z()};
   if (i >= 0)
-    bodies.make_body(i, id, density, words);
+    bodies.make_body(i, id, density, arguments);
 }
 
 /// Kinetic energy of translation and rotation, from fix nve/cluster.

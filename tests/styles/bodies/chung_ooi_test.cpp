@@ -21,7 +21,7 @@ struct Stuff {
 
 /// Scene of two materials: 1 the sphere's, 2 a wall so stiff that it is rigid. Lengths scale with the sphere's radius.
 void open_scene(LiggghtsSession& session, const Stuff& s, double radius, double timestep,
-                const std::string& words = "") {
+                const std::string& arguments = "") {
   constexpr double rigid = 1e6;
   const auto number = [](double value) {
     char text[32];
@@ -42,7 +42,7 @@ void open_scene(LiggghtsSession& session, const Stuff& s, double radius, double 
                  number(s.poisson) + "\nfix m3 all property/global coefficientRestitution peratomtypepair 2 " +
                  four(s.restitution) + "\nfix m4 all property/global coefficientFriction peratomtypepair 2 " +
                  four(s.friction) + "\ntimestep " + number(timestep) + "\n");
-  use_clusters(session, words);
+  use_clusters(session, arguments);
 }
 
 /// Creates a sphere as a body of one sub-sphere; its tag is the next free one.
@@ -64,8 +64,9 @@ Motion motion_of(LiggghtsSession& session, int tag) {
   return {Eigen::Map<Eigen::Vector3d>(session.atom().v[i]), Eigen::Map<Eigen::Vector3d>(session.atom().omega[i])};
 }
 
-std::string floor_wall(const std::string& words = "") {
-  return "fix floor all wall/gran/cluster model hertz tangential history " + words + " primitive type 2 zplane 0.0\n";
+std::string floor_wall(const std::string& arguments = "") {
+  return "fix floor all wall/gran/cluster model hertz tangential history " + arguments +
+         " primitive type 2 zplane 0.0\n";
 }
 
 /// Duration, largest overlap and largest force of an impact along z, followed step by step.
@@ -129,7 +130,7 @@ const Stuff oxide = {3.8e11, 0.23, 4000, 0.98, 0.092};
 
 /// A sphere hits the rigid plane z = 0 and leaves it.
 Motion rebound(const Stuff& s, double radius, const Eigen::Vector3d& velocity, const Eigen::Vector3d& omega,
-               const std::string& words = "") {
+               const std::string& arguments = "") {
   const double mass = s.density * 4 * M_PI / 3 * std::pow(radius, 3);
   const double kn = 4. / 3 * s.youngs / (1 - s.poisson * s.poisson) * std::sqrt(radius);
   const double vn = -velocity.z();
@@ -137,9 +138,9 @@ Motion rebound(const Stuff& s, double radius, const Eigen::Vector3d& velocity, c
   constexpr int steps = 2000;
   const double dt = duration / steps;
   LiggghtsSession session;
-  open_scene(session, s, radius, dt, words);
+  open_scene(session, s, radius, dt, arguments);
   add_ball(session, radius, s.density, {0, 0, radius + vn * dt}, velocity, omega);
-  session.script(floor_wall(words));
+  session.script(floor_wall(arguments));
   session.command("run " + std::to_string(3 * steps));
   EXPECT_GT(session.atom().x[session.local(1)][2], radius) << "it must have left";
   return motion_of(session, 1);

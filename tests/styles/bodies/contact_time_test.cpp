@@ -91,20 +91,20 @@ Contact follow(LiggghtsSession& session, double mass, double touch, Height heigh
   return contact;
 }
 
-Contact ours(const shape::ClusterShape& shape, double e, const std::string& words) {
+Contact ours(const shape::ClusterShape& shape, double e, const std::string& arguments) {
   LiggghtsSession session;
   Material material;
   material.youngs = youngs;
   material.restitution = e;
   open_box(session, material);
-  use_clusters(session, words);
+  use_clusters(session, arguments);
   Start start;
   start.orientation = face_down(shape);
   start.position.z() = depth_of(shape) + 2 * speed * timestep;
   start.velocity.z() = -speed;
   add_body(session, shape, start, density);
   session.script("timestep " + std::to_string(timestep * 1e6) + "e-6\nfix floor all wall/gran/cluster model hertz " +
-                 "tangential history " + words + " primitive type 1 zplane 0\n");
+                 "tangential history " + arguments + " primitive type 1 zplane 0\n");
   return follow(
       session, density * shape.volume(), depth_of(shape), [&] { return session.atom().x[session.local(1)][2]; },
       [&] { return session.atom().v[session.local(1)][2]; });

@@ -33,7 +33,7 @@ struct Pair {
   Eigen::Vector3d momentum_before, momentum_after;
 };
 
-double energy_of(LiggghtsSession& session, cluster::FixBodies& bodies, int tag, Eigen::Vector3d& momentum) {
+double energy_of(LiggghtsSession& session, styles::FixClusterBodies& bodies, int tag, Eigen::Vector3d& momentum) {
   const int i = session.local(tag);
   const Eigen::Map<Eigen::Vector3d> v(session.atom().v[i]), w(session.atom().omega[i]), l(bodies.angular_momentum(i));
   const double m = session.atom().rmass[i];
@@ -42,7 +42,7 @@ double energy_of(LiggghtsSession& session, cluster::FixBodies& bodies, int tag, 
 }
 
 std::vector<Pair> collide(const std::vector<shape::ClusterShape>& shapes, int count, const Material& material,
-                          const std::string& words) {
+                          const std::string& arguments) {
   LiggghtsSession session;
   const int side = static_cast<int>(std::ceil(std::cbrt(count)));
   constexpr double cell = 0.06; // no pair reaches another before the end
@@ -56,7 +56,7 @@ std::vector<Pair> collide(const std::vector<shape::ClusterShape>& shapes, int co
       std::to_string(material.youngs) + "\nfix m2 all property/global poissonsRatio peratomtype 0.3\n" +
       "fix m3 all property/global coefficientRestitution peratomtypepair 1 " + std::to_string(material.restitution) +
       "\nfix m4 all property/global coefficientFriction peratomtypepair 1 " + std::to_string(material.friction) + "\n");
-  use_clusters(session, words);
+  use_clusters(session, arguments);
   std::mt19937 random(11);
   std::normal_distribution<double> normal(0, 1);
   std::uniform_real_distribution<double> u(-1, 1);
@@ -77,7 +77,7 @@ std::vector<Pair> collide(const std::vector<shape::ClusterShape>& shapes, int co
       add_body(session, shapes[(n + k) % shapes.size()], start);
     }
   }
-  cluster::FixBodies& bodies = cluster::FixBodies::require(&session.lammps());
+  styles::FixClusterBodies& bodies = styles::FixClusterBodies::require(&session.lammps());
   session.script("timestep " + std::to_string(1e6 * impact_step()) + "e-6\nrun 0\n");
   std::vector<Pair> pairs(count, Pair{0, 0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
   for (int n = 0; n < count; ++n)
@@ -114,8 +114,8 @@ const std::vector<shape::ClusterShape>& mixed_shapes() {
 
 TEST(Energy, RandomImpactsNeverGainEnergy) {
   // Contacts open at all overlaps: what is left is the integrator's error, second order in the step.
-  for (const char* words : {"contacts shared", "contacts parallel"})
-    expect_no_gain(collide(mixed_shapes(), impacts_asked_for(), {}, words), 1e-6);
+  for (const char* arguments : {"contacts shared", "contacts parallel"})
+    expect_no_gain(collide(mixed_shapes(), impacts_asked_for(), {}, arguments), 1e-6);
 }
 
 TEST(Energy, FrictionlessElasticImpactsKeepIt) {

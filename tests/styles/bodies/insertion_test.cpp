@@ -30,12 +30,12 @@ struct Placed {
 };
 
 std::vector<Placed> placed(LiggghtsSession& session) {
-  constexpr int words = 14;
+  constexpr int arguments = 14;
   std::vector<double> ours;
-  cluster::FixBodies& bodies = cluster::FixBodies::require(&session.lammps());
+  styles::FixClusterBodies& bodies = styles::FixClusterBodies::require(&session.lammps());
   for (int i = 0; i < session.atom().nlocal; ++i) {
     double turn[9];
-    cluster::rotation_matrix(bodies.quaternion(i), turn);
+    contact::rotation_matrix(bodies.quaternion(i), turn);
     ours.insert(ours.end(), session.atom().x[i], session.atom().x[i] + 3);
     ours.push_back(session.atom().radius[i]);
     ours.insert(ours.end(), turn, turn + 9);
@@ -52,7 +52,7 @@ std::vector<Placed> placed(LiggghtsSession& session) {
   std::vector<double> all(total);
   MPI_Allgatherv(ours.data(), size, MPI_DOUBLE, all.data(), sizes.data(), starts.data(), MPI_DOUBLE, MPI_COMM_WORLD);
   std::vector<Placed> result;
-  for (int n = 0; n < total; n += words)
+  for (int n = 0; n < total; n += arguments)
     result.push_back({Eigen::Vector3d(&all[n]), all[n + 3],
                       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(&all[n + 4]),
                       static_cast<int>(all[n + 13])});
@@ -60,7 +60,7 @@ std::vector<Placed> placed(LiggghtsSession& session) {
 }
 
 /// Every sub-sphere of a body in world.
-std::vector<shape::Sphere> spheres_of(const Placed& body, const cluster::ShapeTable& shapes) {
+std::vector<shape::Sphere> spheres_of(const Placed& body, const styles::ShapeTable& shapes) {
   if (body.shape < 0)
     return {{body.centre, body.radius}};
   std::vector<shape::Sphere> world;
@@ -72,7 +72,7 @@ std::vector<shape::Sphere> spheres_of(const Placed& body, const cluster::ShapeTa
 /// Pairs of bodies that overlap anywhere, by brute force.
 int overlapping_pairs(LiggghtsSession& session) {
   const auto all = placed(session);
-  const auto& shapes = cluster::FixBodies::require(&session.lammps()).shapes();
+  const auto& shapes = styles::FixClusterBodies::require(&session.lammps()).shapes();
   std::vector<std::vector<shape::Sphere>> spheres;
   for (const Placed& body : all)
     spheres.push_back(spheres_of(body, shapes));
@@ -221,7 +221,7 @@ TEST(Insertion, StreamsOfClustersKeepCountVelocityAndSpin) {
   session.script("neigh_modify exclude group all all\nrun 3000\n");
   EXPECT_EQ(session.atom().natoms, poured);
   expect_uniform_orientations(session);
-  cluster::FixBodies& bodies = cluster::FixBodies::require(&session.lammps());
+  styles::FixClusterBodies& bodies = styles::FixClusterBodies::require(&session.lammps());
   const Eigen::Vector3d given(3, -20, 5);
   int released = 0;
   for (int i = 0; i < session.atom().nlocal; ++i) {

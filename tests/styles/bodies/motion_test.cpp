@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-using namespace eccentra::cluster;
+using namespace eccentra::contact;
 
 namespace {
 

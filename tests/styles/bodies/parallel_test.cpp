@@ -79,7 +79,7 @@ using Row = std::array<double, 13>;
 /// Position, velocity, quaternion and angular velocity by tag, the same on every rank; zero where a body is gone.
 std::vector<Row> rows_of(LiggghtsSession& session, int tags, MPI_Comm ranks) {
   std::vector<Row> all(tags, Row{});
-  cluster::FixBodies& bodies = cluster::FixBodies::require(&session.lammps());
+  styles::FixClusterBodies& bodies = styles::FixClusterBodies::require(&session.lammps());
   for (int tag = 1; tag <= tags; ++tag) {
     const int i = session.local(tag);
     if (i < 0)

@@ -64,7 +64,7 @@ TEST(RestartVersion, AnotherFormatIsRefused) {
 
   const std::string file = read_all(folder / "now.restart");
   char mark[sizeof(int)];
-  std::memcpy(mark, &cluster::restart_mark, sizeof mark);
+  std::memcpy(mark, &styles::restart_mark, sizeof mark);
   int places = 0;
   for (std::size_t at = file.find(mark, 0, sizeof mark); at != std::string::npos;
        at = file.find(mark, at + 1, sizeof mark)) {
@@ -76,7 +76,7 @@ TEST(RestartVersion, AnotherFormatIsRefused) {
       const ProgramResult refused = run_script(folder, "go_on.in", go_on);
       EXPECT_GT(refused.status, 0);
       const std::string sentence = "the restart file was written by another version of Eccentra (data format " +
-                                   (numbered ? std::to_string(cluster::restart_format + 1) : "without a number");
+                                   (numbered ? std::to_string(styles::restart_format + 1) : "without a number");
       const std::size_t said = refused.output.find(sentence);
       EXPECT_NE(said, std::string::npos) << "place " << places << ": " << refused.output;
       EXPECT_EQ(refused.output.find(sentence, said + 1), std::string::npos) << "said twice";

@@ -42,12 +42,12 @@ struct Bounce {
 };
 
 /// One body runs into another of its kind, which lies as its mirror image; relative speed 0.2 m/s.
-Bounce bounce(const Central& c, double restitution, const std::string& words, double speed = 0.2) {
+Bounce bounce(const Central& c, double restitution, const std::string& arguments, double speed = 0.2) {
   LiggghtsSession session;
   Material material;
   material.restitution = restitution;
   open_box(session, material);
-  use_clusters(session, words);
+  use_clusters(session, arguments);
   const shape::ClusterShape shape = shape_of(c.family, c.count);
   Start start[2];
   // The mirror image of these shapes in z = 0 is a turn by pi about z of the same turned about x.

@@ -125,7 +125,7 @@ using Row = std::array<double, 13>;
 
 std::vector<Row> rows_of(LiggghtsSession& session, int tags, MPI_Comm ranks = MPI_COMM_WORLD) {
   std::vector<Row> all(tags, Row{});
-  cluster::FixBodies& data = cluster::FixBodies::require(&session.lammps());
+  styles::FixClusterBodies& data = styles::FixClusterBodies::require(&session.lammps());
   for (int tag = 1; tag <= tags; ++tag) {
     const int i = session.local(tag);
     if (i < 0)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clusters come into a scene through stock insertion: exact counts, mass of the union, uniform orientations; free
 // flight keeps momentum and energy on any number of ranks.
-#include "styles/bodies/bodies.h"
+#include "styles/bodies/fix_cluster_bodies.h"
 #include "support/liggghts_session.h"
 
 #include "modify.h"
@@ -13,7 +13,7 @@
 
 #include <cmath>
 
-using eccentra::cluster::FixBodies;
+using eccentra::styles::FixClusterBodies;
 using eccentra::test::LiggghtsSession;
 
 namespace {
@@ -62,7 +62,7 @@ TEST(ParticleTemplateCluster, InsertsBodiesOfTheUnionsMassWithUniformOrientation
   fill(session);
   auto& atom = session.atom();
   EXPECT_EQ(atom.natoms, count);
-  FixBodies& bodies = *FixBodies::find(&session.lammps());
+  FixClusterBodies& bodies = *FixClusterBodies::find(&session.lammps());
   ASSERT_EQ(bodies.shapes().size(), 2);
   const double solid = M_PI / 6 * std::pow(6.35e-3, 3);
   double axis[3] = {0, 0, 0}, square[3] = {0, 0, 0}, of_first = 0;
@@ -96,7 +96,7 @@ TEST(NveCluster, FreeFlightKeepsMomentumAndEnergy) {
   fill(session);
   LAMMPS_NS::Fix* motion = session.lammps().modify->find_fix_id("integrate");
   const int i = session.local(1);
-  FixBodies& bodies = *FixBodies::find(&session.lammps());
+  FixClusterBodies& bodies = *FixClusterBodies::find(&session.lammps());
   double before[3] = {0, 0, 0};
   if (i >= 0)
     std::copy(bodies.angular_momentum(i), bodies.angular_momentum(i) + 3, before);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clusters in a prescribed flow: volume and sphericity of the union, drag by orientation, torque on the body.
 #include "closures/projected_area.h"
-#include "styles/bodies/bodies.h"
+#include "styles/bodies/fix_cluster_bodies.h"
 
 #include "fluid_scene.h"
 
@@ -12,11 +12,11 @@
 #include <cmath>
 
 using namespace eccentra::test;
-using eccentra::cluster::FixBodies;
-using eccentra::fluid::FixFluidForce;
-using eccentra::fluid::projected_area;
-using eccentra::fluid::ProjectedAreaTable;
+using eccentra::closures::projected_area;
+using eccentra::closures::ProjectedAreaTable;
 using eccentra::shape::Sphere;
+using eccentra::styles::FixClusterBodies;
+using eccentra::styles::FixFluidForce;
 using Eigen::Vector3d;
 
 namespace {
@@ -37,8 +37,8 @@ TEST(ProjectedArea, OfOneAndOfTwoSpheres) {
 
 TEST(ProjectedArea, TableInterpolatesWithinOnePercent) {
   std::size_t used = 0;
-  for (const auto& words : std::vector<std::vector<std::string>>{{"disk", "48"}, {"cube", "27"}}) {
-    const auto shape = eccentra::shape::make_shape(words, 0, used, kDiameter);
+  for (const auto& arguments : std::vector<std::vector<std::string>>{{"disk", "48"}, {"cube", "27"}}) {
+    const auto shape = eccentra::shape::make_shape(arguments, 0, used, kDiameter);
     const ProjectedAreaTable table(shape.spheres());
     for (int n = 0; n < 40; ++n) {
       const Vector3d direction(std::sin(1.7 * n), std::cos(2.3 * n), std::sin(.9 * n + 1));
@@ -60,7 +60,7 @@ void make_cluster(LiggghtsSession& session, const std::string& shape, const Eige
   const int i = session.local(1);
   const double q[4] = {turn.w(), turn.x(), turn.y(), turn.z()};
   if (i >= 0)
-    FixBodies::find(&session.lammps())->make_body(i, 0, kSolidDensity, q);
+    FixClusterBodies::find(&session.lammps())->make_body(i, 0, kSolidDensity, q);
 }
 
 /// Settling speed with F(U) = V (rho_p - rho_f) g for a drag law in plain form.
@@ -80,7 +80,7 @@ TEST(Clusters, SettleBySphericityAndVolumeOfTheirUnion) {
     make_cluster(session, name, Eigen::Quaterniond::Identity());
     session.script("fix mud all fluid/force rheology power_law 0.28 0.65 density 1000 drag chien\n"
                    "fix flow all fluid/uniform velocity 0 0 0\nrun 5000\n");
-    const double phi = FixBodies::find(&session.lammps())->shapes()[0].sphericity();
+    const double phi = FixClusterBodies::find(&session.lammps())->shapes()[0].sphericity();
     const double expected = settling([&](double u) {
       const double re = kFluidDensity * std::pow(u, 1.35) * std::pow(kDiameter, .65) / .28;
       return kPiTest / 8 * kFluidDensity * kDiameter * kDiameter * u * u * (30 / re + 67.289 * std::exp(-5.03 * phi));
@@ -102,7 +102,7 @@ TEST(Clusters, ADiskSettlesFasterEdgewise) {
     LiggghtsSession session;
     // Body z is a principal axis, not always the disk's own: find the direction of the largest shadow.
     make_cluster(session, "disk 19", Eigen::Quaterniond::Identity());
-    const auto& shape = FixBodies::find(&session.lammps())->shapes()[0];
+    const auto& shape = FixClusterBodies::find(&session.lammps())->shapes()[0];
     int axis = 0;
     for (int k = 1; k < 3; ++k)
       if (projected_area(shape.spheres(), Vector3d::Unit(k)) > projected_area(shape.spheres(), Vector3d::Unit(axis)))
@@ -112,7 +112,7 @@ TEST(Clusters, ADiskSettlesFasterEdgewise) {
     const double q[4] = {turn.w(), turn.x(), turn.y(), turn.z()};
     const int i = session.local(1);
     if (i >= 0)
-      FixBodies::find(&session.lammps())->make_body(i, 0, kSolidDensity, q);
+      FixClusterBodies::find(&session.lammps())->make_body(i, 0, kSolidDensity, q);
     session.script("fix mud all fluid/force rheology newtonian 0.01 density 1000 drag holzer_sommerfeld\n"
                    "fix flow all fluid/uniform velocity 0 0 0\nrun 8000\n");
     speed[edgewise] = -velocity_of(session, 1, 2);

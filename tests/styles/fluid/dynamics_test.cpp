@@ -8,7 +8,7 @@
 #include <cmath>
 
 using namespace eccentra::test;
-using eccentra::fluid::FixFluidForce;
+using eccentra::styles::FixFluidForce;
 
 namespace {
 
@@ -26,11 +26,12 @@ std::string integrate(double step) {
 
 /// Steady settling speed of one sphere in a bed of fluid fraction a that is fluidised: -grad p_rgh carries (1-a) of the
 /// weight.
-double settling_speed(const std::string& rheology, const std::string& words, double fraction, double step, int steps) {
+double settling_speed(const std::string& rheology, const std::string& arguments, double fraction, double step,
+                      int steps) {
   LiggghtsSession session;
   const double excess = (1.0 - fraction) * (kSolidDensity - kFluidDensity) * kGravity;
   session.script(scene_head() + one_sphere() + gravity() + integrate(step) + "fix mud all fluid/force rheology " +
-                 rheology + " density 1000 pressure_gradient on " + words +
+                 rheology + " density 1000 pressure_gradient on " + arguments +
                  "\nfix flow all fluid/uniform velocity 0 0 0 fraction " + number(fraction) +
                  " pressure_gradient 0 0 -" + number(excess) + "\nrun " + std::to_string(steps) + "\n");
   return -velocity_of(session, 1, 2);

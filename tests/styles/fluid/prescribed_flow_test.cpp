@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 using namespace eccentra::test;
-using eccentra::fluid::FixFluidForce;
+using eccentra::styles::FixFluidForce;
 
 namespace {
 

@@ -16,16 +16,18 @@
 #include <sstream>
 
 using namespace eccentra::test;
-using namespace eccentra::fluid;
+using namespace eccentra::closures;
+using namespace eccentra::link;
+using namespace eccentra::styles;
 
 namespace {
 
 /// 32 spheres apart from each other, sinking in a fluid that shears in z.
-std::string scene(const std::string& flow, const std::string& words,
+std::string scene(const std::string& flow, const std::string& arguments,
                   const std::string& fluid = "herschel_bulkley 1 0.28 0.65") {
   return scene_head() + "lattice sc 0.05\ncreate_atoms 1 box\nset group all diameter 0.00635 density 2619\n" +
          gravity() + "timestep 1e-4\nfix integrate all nve/sphere\nfix mud all fluid/force density 1000 rheology " +
-         fluid + " " + words + "\nfix flow all fluid/uniform velocity 0 0 0 " + flow + "\n";
+         fluid + " " + arguments + "\nfix flow all fluid/uniform velocity 0 0 0 " + flow + "\n";
 }
 
 /// Mean velocity of all spheres.
@@ -52,7 +54,7 @@ struct Scene {
   bool decides;
   std::string fluid; ///< rheology, and density where it is not that of water
   std::string flow;
-  std::string words; ///< what is not up to the screen
+  std::string arguments; ///< what is not up to the screen
 };
 
 void PrintTo(const Scene& scene, std::ostream* stream) {
@@ -69,12 +71,12 @@ TEST_P(Screen, KeepsWhatDecidesAndStaysWithinTwiceTheTolerance) {
     LiggghtsSession session;
     const std::string everything = "drag chien shear_lift saffman_mei rotational_lift oesterle_bui_dinh "
                                    "pressure_gradient on viscous_stress on drag_torque dennis ";
-    session.script(scene(c.flow, everything + c.words, c.fluid) + "run 4000\n");
+    session.script(scene(c.flow, everything + c.arguments, c.fluid) + "run 4000\n");
     all = mean_velocity(session);
   }
   {
     LiggghtsSession session;
-    session.script(scene(c.flow, c.words + " screen 0.01 screen_steps 2000 screen_recheck 0", c.fluid) + "run 1\n");
+    session.script(scene(c.flow, c.arguments + " screen 0.01 screen_steps 2000 screen_recheck 0", c.fluid) + "run 1\n");
     EXPECT_TRUE(acts(session, c.effect)) << "everything is on while the screen looks";
     session.command("run 3999");
     EXPECT_EQ(acts(session, c.effect), c.decides);
@@ -152,19 +154,20 @@ TEST(ScreenState, RecheckSwitchesOnWhatHasComeToMatter) {
 }
 
 TEST(ScreenState, RestartContinuesBitForBit) {
-  const std::string words = "screen 0.01 screen_steps 200 screen_recheck 300";
+  const std::string arguments = "screen 0.01 screen_steps 200 screen_recheck 300";
   const std::string flow = "velocity_gradient 0 0 0 0 0 0 3 0 0 pressure_gradient 0 100 0";
   std::array<double, 3> straight{}, restarted{};
   unsigned needs_straight = 0;
   for (const int stop : {150, 350, 500}) { // in the first measurement, in the pause, about to measure again
     {
       LiggghtsSession session;
-      session.script(scene(flow, words) + "run " + std::to_string(stop) + "\nwrite_restart screen.restart\nrun 400\n");
+      session.script(scene(flow, arguments) + "run " + std::to_string(stop) +
+                     "\nwrite_restart screen.restart\nrun 400\n");
       straight = mean_velocity(session);
       needs_straight = needs(session);
     }
     LiggghtsSession session;
-    std::string script = scene(flow, words);
+    std::string script = scene(flow, arguments);
     const auto box = script.find("region box"), neighbor = script.find("neighbor");
     script.replace(box, neighbor - box, "read_restart screen.restart\n");
     const auto create = script.find("lattice"), after = script.find("fix gravity");
@@ -190,9 +193,9 @@ class SerialSession {
  public:
   SerialSession() {
     static char name[] = "liggghts", log[] = "-log", screen[] = "-screen", none[] = "none";
-    char* words[] = {name, log, none, screen, none};
-    lammps_ = std::make_unique<LAMMPS_NS::LAMMPS>(5, words, MPI_COMM_SELF);
-    eccentra::host::enter(lammps_.get());
+    char* arguments[] = {name, log, none, screen, none};
+    lammps_ = std::make_unique<LAMMPS_NS::LAMMPS>(5, arguments, MPI_COMM_SELF);
+    eccentra::styles::enter(lammps_.get());
   }
   void script(const std::string& lines) {
     std::istringstream stream(lines);

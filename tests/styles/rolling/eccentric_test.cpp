@@ -15,7 +15,7 @@
 #include <random>
 
 using namespace eccentra::test;
-using eccentra::rolling::SupportTable;
+using eccentra::contact::SupportTable;
 
 namespace {
 
@@ -24,19 +24,19 @@ SupportTable table_of(const std::string& word, const std::string& value) {
   return SupportTable(eccentra::shape::make_shape({word, value}, 0, used, 2.0));
 }
 
-RollingScene eccentric_scene(const std::string& words) {
+RollingScene eccentric_scene(const std::string& arguments) {
   RollingScene scene;
   scene.model = "eccentric";
-  scene.words = "shape cube 64 " + words;
+  scene.arguments = "shape cube 64 " + arguments;
   scene.walls = "";
   return scene;
 }
 
 /// A wall takes no shape: it is the particles'.
-std::string floor_line(const std::string& words = "") {
+std::string floor_line(const std::string& arguments = "") {
   return "fix floor all wall/gran model hertz tangential history rolling_friction eccentric primitive type 1 zplane "
          "0.0 " +
-         words + "\n";
+         arguments + "\n";
 }
 
 double* orientation_of(LiggghtsSession& session, int tag) {
@@ -61,9 +61,9 @@ Eigen::Quaterniond get_orientation(LiggghtsSession& session, int tag) {
 }
 
 /// Lies on the floor, upright; ready for motion.
-void place(LiggghtsSession& session, const RollingScene& scene, const std::string& wall_words) {
+void place(LiggghtsSession& session, const RollingScene& scene, const std::string& wall_arguments) {
   const double weight = -scene.gravity[2] * kGravity * sphere_mass();
-  session.script(rolling_scene(scene) + floor_line(wall_words) +
+  session.script(rolling_scene(scene) + floor_line(wall_arguments) +
                  sphere_at({0, 0, kRadius - resting_overlap(scene, weight)}) + spheres_done() + "run 0\n");
   set_orientation(session, 1, Eigen::Quaterniond::Identity());
 }
@@ -88,9 +88,10 @@ TEST(SupportTable, FindsTheFurthestSubSphere) {
     lines += number(1.3 * c[0]) + " " + number(c[1]) + " " + number(0.8 * c[2]) + " 0.3\n";
   }
   write_file(pebble, lines);
-  for (const auto& words : std::vector<std::vector<std::string>>{{"cube", "64"}, {"disk", "19"}, {"file", pebble}}) {
+  for (const auto& arguments :
+       std::vector<std::vector<std::string>>{{"cube", "64"}, {"disk", "19"}, {"file", pebble}}) {
     std::size_t used = 0;
-    const auto shape = eccentra::shape::make_shape(words, 0, used, 2.0);
+    const auto shape = eccentra::shape::make_shape(arguments, 0, used, 2.0);
     const SupportTable table(shape);
     for (int k = 0; k < 2000; ++k) {
       const Eigen::Vector3d d = direction();
@@ -102,8 +103,8 @@ TEST(SupportTable, FindsTheFurthestSubSphere) {
           centre = sphere.centre;
         }
       }
-      EXPECT_NEAR(table.reach(d), reach, 1e-6) << words[0];
-      EXPECT_LT((table.arm(d, 0) - centre).norm(), 1e-2) << words[0] << ": " << d.transpose();
+      EXPECT_NEAR(table.reach(d), reach, 1e-6) << arguments[0];
+      EXPECT_LT((table.arm(d, 0) - centre).norm(), 1e-2) << arguments[0] << ": " << d.transpose();
     }
   }
 }
@@ -136,7 +137,7 @@ TEST(EccentricBatch, EqualsTheSingleContact) {
        {std::pair<std::string, std::string>{"cube", "64"}, {"disk", "48"}, {"file", pebble}}) {
     const SupportTable shape = table_of(word, value);
     EXPECT_EQ(shape.few(), word != "file");
-    eccentra::rolling::EccentricBatch batch;
+    eccentra::contact::EccentricBatch batch;
     constexpr double radius = 3e-3;
     constexpr double damping = 0.04;
     std::vector<Eigen::Vector3d> expected;
@@ -148,7 +149,7 @@ TEST(EccentricBatch, EqualsTheSingleContact) {
       const double depth = m == 0 ? 0 : std::pow(10, -1.5 - 0.4 * m);
       const double push = 1e-2 * (m + 1);
       batch.add(m, q.data(), radius, n, spin, depth, push, damping);
-      const Eigen::Vector3d moment = eccentra::rolling::turned_moment(shape, {q[0], q[1], q[2], q[3]}, -n, depth,
+      const Eigen::Vector3d moment = eccentra::contact::turned_moment(shape, {q[0], q[1], q[2], q[3]}, -n, depth,
                                                                       {push, damping * radius, n.cross(spin)});
       expected.push_back(radius * moment.cross(n));
     }

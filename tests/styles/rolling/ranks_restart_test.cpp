@@ -64,14 +64,14 @@ std::string dump_line(const std::string& file, long step) {
 States run_script(const std::filesystem::path& folder, const std::string& name, const std::string& text, int ranks,
                   const std::string& program = "eccentra-dem") {
   write_file(folder / (name + ".in"), text);
-  std::vector<std::string> words;
+  std::vector<std::string> arguments;
   if (ranks > 1)
-    words = {"mpirun", "--oversubscribe", "--bind-to", "none", "-np", std::to_string(ranks)};
-  words.push_back(program == "liggghts" ? program : required_environment("ECCENTRA_BIN") + "/" + program);
-  words.insert(words.end(), {"-in", name + ".in", "-log", "none"});
+    arguments = {"mpirun", "--oversubscribe", "--bind-to", "none", "-np", std::to_string(ranks)};
+  arguments.push_back(program == "liggghts" ? program : required_environment("ECCENTRA_BIN") + "/" + program);
+  arguments.insert(arguments.end(), {"-in", name + ".in", "-log", "none"});
   ProgramOptions options;
   options.directory = folder;
-  const ProgramResult result = run_program(words, options);
+  const ProgramResult result = run_program(arguments, options);
   EXPECT_EQ(result.status, 0) << result.output;
   return read_dump(folder / (name + ".dump"));
 }
@@ -92,12 +92,12 @@ double largest_difference(const States& a, const States& b) {
 
 } // namespace
 
-/// Model and words that follow it.
+/// Model and arguments that follow it.
 struct ModelWords {
   const char* name;
   const char* model;
-  const char* words;
-  const char* pair_words;
+  const char* arguments;
+  const char* pair_arguments;
   double mu_shape;
   /// What round-off (1e-16 of 1 m/s) may have grown to after 0.04 s. Arms that turn with the bodies let it grow faster.
   double amplified = 1e-9;
@@ -108,8 +108,8 @@ class Invariance : public ::testing::TestWithParam<ModelWords> {
   RollingScene scene() const {
     RollingScene scene;
     scene.model = GetParam().model;
-    scene.words = GetParam().words;
-    scene.pair_words = GetParam().pair_words;
+    scene.arguments = GetParam().arguments;
+    scene.pair_arguments = GetParam().pair_arguments;
     scene.mu_shape = GetParam().mu_shape;
     return scene;
   }

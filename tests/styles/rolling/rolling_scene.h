@@ -25,8 +25,8 @@ constexpr double kPi = 3.14159265358979323846;
 /// What a rolling scene is made of.
 struct RollingScene {
   std::string model = "shape";       ///< word after rolling_friction
-  std::string words;                 ///< words of the model that follow it
-  std::string pair_words;            ///< words that pair_style alone takes: the shape of eccentric
+  std::string arguments;             ///< arguments of the model that follow it
+  std::string pair_arguments;        ///< arguments that pair_style alone takes: the shape of eccentric
   double mu_r = 0;                   ///< coefficientRollingFriction
   double mu_shape = 0.1;             ///< shapeRollingFriction
   double mu_s = 0.5;                 ///< Coulomb
@@ -36,7 +36,7 @@ struct RollingScene {
   Eigen::Vector3d gravity{0, 0, -1}; ///< in units of kGravity
   std::string box = "-0.5 0.5 -0.05 0.05 -0.01 0.1";
   std::string boundary = "f f f";
-  std::string walls = "primitive type 1 zplane 0.0"; ///< words of one wall; empty: none
+  std::string walls = "primitive type 1 zplane 0.0"; ///< arguments of one wall; empty: none
 };
 
 inline std::string number(double value) {
@@ -46,14 +46,14 @@ inline std::string number(double value) {
   return text.str();
 }
 
-/// The words that tell pair and walls which contact model to use.
-inline std::string model_words(const RollingScene& scene) {
+/// The arguments that tell pair and walls which contact model to use.
+inline std::string model_arguments(const RollingScene& scene) {
   return "model hertz tangential history rolling_friction " + scene.model;
 }
 
-/// One wall fix; LIGGGHTS wants the words of the model after the wall.
+/// One wall fix; LIGGGHTS wants the arguments of the model after the wall.
 inline std::string wall_line(const RollingScene& scene, const std::string& id, const std::string& wall) {
-  return "fix " + id + " all wall/gran " + model_words(scene) + " " + wall + " " + scene.words + "\n";
+  return "fix " + id + " all wall/gran " + model_arguments(scene) + " " + wall + " " + scene.arguments + "\n";
 }
 
 /// Everything up to, and without, particles and integration.
@@ -69,7 +69,7 @@ inline std::string materials(const RollingScene& scene) {
 
 inline std::string forces(const RollingScene& scene) {
   const double size = scene.gravity.norm() * kGravity;
-  std::string text = "pair_style gran " + model_words(scene) + " " + scene.words + " " + scene.pair_words +
+  std::string text = "pair_style gran " + model_arguments(scene) + " " + scene.arguments + " " + scene.pair_arguments +
                      "\npair_coeff * *\ntimestep " + number(scene.timestep) + "\n";
   if (size > 0)
     text += "fix gravity all gravity " + number(size) + " vector " + number(scene.gravity[0]) + " " +

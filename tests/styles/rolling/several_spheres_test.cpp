@@ -11,9 +11,9 @@ using namespace eccentra::test;
 
 namespace {
 
-RollingScene without_walls(const std::string& words) {
+RollingScene without_walls(const std::string& arguments) {
   RollingScene scene;
-  scene.words = words;
+  scene.arguments = arguments;
   scene.gravity = {0, 0, 0};
   scene.walls = "";
   scene.box = "-0.05 0.05 -0.05 0.05 -0.05 0.05";
@@ -54,7 +54,7 @@ Eigen::Vector3d angular_momentum(LiggghtsSession& session, int spheres) {
 
 class PairForms : public ::testing::TestWithParam<const char*> {
  protected:
-  std::string words() const { return std::string("form ") + GetParam(); }
+  std::string arguments() const { return std::string("form ") + GetParam(); }
 };
 
 // Eq (19) has |r_c| = R where stock cdt has R* = R/2.
@@ -82,7 +82,7 @@ TEST(PairTorque, LimitedReachesTheSameCap) {
 
 // Spheres that touch and spin at random, alone in space: P and L stay.
 TEST_P(PairForms, ConservesMomentum) {
-  RollingScene scene = without_walls(words());
+  RollingScene scene = without_walls(arguments());
   scene.mu_shape = 0.5;
   LiggghtsSession session;
   std::string text = rolling_scene(scene);
@@ -111,7 +111,7 @@ TEST_P(PairForms, ConservesMomentum) {
 // Spheres dropped into a box come to rest. What is left moving is the measure that the forms differ in.
 TEST_P(PairForms, HeapComesToRest) {
   RollingScene scene;
-  scene.words = words();
+  scene.arguments = arguments();
   scene.mu_shape = 0.32;
   scene.timestep = 2e-5;
   scene.box = "-0.03 0.03 -0.03 0.03 -0.01 0.1";

@@ -43,7 +43,7 @@ class Forms : public ::testing::TestWithParam<const char*> {
  protected:
   RollingScene scene() const {
     RollingScene scene;
-    scene.words = std::string("form ") + GetParam();
+    scene.arguments = std::string("form ") + GetParam();
     return scene;
   }
   /// Forms that hold a load instead of chattering about it.
@@ -170,7 +170,7 @@ TEST_P(Forms, TorsionIsResistedUnlessSwitchedOff) {
   for (const bool resisted : {false, true}) {
     RollingScene spinning = scene();
     spinning.mu_shape = 0.1;
-    spinning.words += resisted ? "" : " torsionTorque off";
+    spinning.arguments += resisted ? "" : " torsionTorque off";
     const double spin = 20;
     const double time = 0.01;
     LiggghtsSession session;

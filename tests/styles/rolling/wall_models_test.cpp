@@ -12,12 +12,12 @@ using namespace eccentra::test;
 
 namespace {
 
-/// A wall style with the model words that follow it; pair_style takes the same model.
+/// A wall style with the model arguments that follow it; pair_style takes the same model.
 struct WallModel {
   const char* name;
   const char* style;
   const char* model;
-  const char* words; ///< of pair and wall
+  const char* arguments; ///< of pair and wall
 };
 
 std::string name_of(const ::testing::TestParamInfo<WallModel>& info) {
@@ -27,7 +27,7 @@ std::string name_of(const ::testing::TestParamInfo<WallModel>& info) {
 RollingScene scene_of(const WallModel& model, double mu) {
   RollingScene scene;
   scene.model = model.model;
-  scene.words = model.words;
+  scene.arguments = model.arguments;
   const bool ours = scene.model == "shape";
   scene.mu_shape = ours ? mu : 0;
   scene.mu_r = ours ? 0 : mu;
@@ -37,7 +37,7 @@ RollingScene scene_of(const WallModel& model, double mu) {
 
 std::string wall(const WallModel& model, const std::string& what) {
   return std::string("fix floor all ") + model.style + " model hertz tangential history rolling_friction " +
-         model.model + " " + what + " " + model.words + "\n";
+         model.model + " " + what + " " + model.arguments + "\n";
 }
 
 using Corners = std::array<Eigen::Vector3d, 3>;
@@ -95,9 +95,9 @@ TEST_P(TurningMesh, PlateTurnsTheSphereOnIt) {
   const double spin = 6;
   RollingScene scene = scene_of(GetParam(), mu);
   scene.mu_s = 0; // the sphere stays where it is: beside the axis, not on the diagonal of the plate
-  scene.words += " torsionTorque on";
+  scene.arguments += " torsionTorque on";
   WallModel model = GetParam();
-  model.words = scene.words.c_str();
+  model.arguments = scene.arguments.c_str();
   LiggghtsSession session;
   const double weight = sphere_mass() * kGravity;
   session.script(rolling_scene(scene) + turning_mesh(model, write_stl("plate", plate()), spin) +
@@ -180,11 +180,11 @@ TEST_P(ModelsAtOurWalls, EqualStockWallsOnAPlane) {
                               "fix m9 all property/global coeffRollingStiffness peratomtypepair 1 0.3\n";
   const auto rolled = [&](const char* style) {
     RollingScene scene = scene_of(GetParam(), 0.1);
-    scene.words = "";
-    scene.pair_words = GetParam().words;
+    scene.arguments = "";
+    scene.pair_arguments = GetParam().arguments;
     WallModel model = GetParam();
     model.style = style;
-    model.words = "";
+    model.arguments = "";
     LiggghtsSession session;
     const double weight = sphere_mass() * kGravity;
     std::string script = rolling_scene(scene);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clusters dropped on walls: the restitution asked for at every level of detail, and rigid-body closed forms off
 // centre.
-#include "styles/bodies/bodies.h"
+#include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/walls/wall_scene.h"
 
 #include <Eigen/Geometry>
@@ -11,7 +11,7 @@
 #include <cmath>
 #include <fstream>
 
-using eccentra::cluster::FixBodies;
+using eccentra::styles::FixClusterBodies;
 using eccentra::test::LiggghtsSession;
 using eccentra::test::wall_scene;
 
@@ -65,7 +65,7 @@ Rebound drop(const Drop& d) {
   }
   const double height = depth + 2 * d.speed * d.timestep;
   session.script("create_atoms 1 single " + std::to_string(d.x) + " " + std::to_string(d.y) + " 0.05 units box");
-  FixBodies& bodies = FixBodies::require(&session.lammps());
+  FixClusterBodies& bodies = FixClusterBodies::require(&session.lammps());
   const int id = bodies.shapes().add(shape);
   if (session.local(1) >= 0) {
     const int i = session.local(1);
@@ -244,7 +244,7 @@ namespace {
 std::vector<double> tumble(LiggghtsSession& session, const std::string& commands) {
   session.script(commands);
   std::vector<double> all(4 * 13, 0.0);
-  FixBodies& bodies = FixBodies::require(&session.lammps());
+  FixClusterBodies& bodies = FixClusterBodies::require(&session.lammps());
   for (int tag = 1; tag <= 4; ++tag) {
     const int i = session.local(tag);
     if (i < 0)
@@ -271,7 +271,7 @@ const char* kTumbleWalls = R"(
 void place_cubes(LiggghtsSession& session) {
   session.script(wall_scene(1e-5));
   session.script("pair_style gran/cluster model hertz tangential history rolling_friction off\npair_coeff * *");
-  FixBodies& bodies = FixBodies::require(&session.lammps());
+  FixClusterBodies& bodies = FixClusterBodies::require(&session.lammps());
   std::size_t used = 0;
   const int id = bodies.shapes().add(eccentra::shape::make_shape({"cube", "27"}, 0, used, kDiameter));
   for (int tag = 1; tag <= 4; ++tag)
@@ -314,7 +314,7 @@ TEST(WallClusters, RestartGoesOnToTheLastDigit) {
     pair_coeff * *
     timestep 1e-5
   )");
-  FixBodies::require(&session.lammps());
+  FixClusterBodies::require(&session.lammps());
   const auto restarted = tumble(session, std::string(kTumbleWalls) + "run 3000");
   for (std::size_t k = 0; k < straight.size(); ++k)
     EXPECT_EQ(restarted[k], straight[k]) << "value " << k;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What dump cluster/vtk writes, read back by VTK's own reader: every sub-sphere where the body's motion puts it.
-#include "styles/bodies/bodies.h"
+#include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/walls/wall_scene.h"
 
 #include <Eigen/Geometry>
@@ -13,7 +13,7 @@
 #include <vtkPolyData.h>
 #include <vtkXMLPolyDataReader.h>
 
-using eccentra::cluster::FixBodies;
+using eccentra::styles::FixClusterBodies;
 using eccentra::test::LiggghtsSession;
 using eccentra::test::wall_scene;
 
@@ -33,7 +33,7 @@ TEST(DumpClusterVtk, SubSpheresAreWhereTheBodiesAre) {
     create_atoms 1 single 0.00 0.05 -0.03 units box
     set group all diameter 6.35e-3 density 2619
   )");
-  FixBodies& bodies = FixBodies::require(&session.lammps());
+  FixClusterBodies& bodies = FixClusterBodies::require(&session.lammps());
   std::size_t used = 0;
   const auto cube = eccentra::shape::make_shape({"cube", "8"}, 0, used, 6.35e-3);
   const int id = bodies.shapes().add(cube);
@@ -68,7 +68,7 @@ TEST(DumpClusterVtk, SubSpheresAreWhereTheBodiesAre) {
     const int body = row / 8;
     EXPECT_EQ(array("body")->GetTuple1(row), body + 1);
     EXPECT_EQ(array("type")->GetTuple1(row), body == 1 ? 2 : 1);
-    EXPECT_EQ(array("shape")->GetTuple1(row), body < 2 ? id : FixBodies::plain_sphere);
+    EXPECT_EQ(array("shape")->GetTuple1(row), body < 2 ? id : FixClusterBodies::plain_sphere);
     Eigen::Vector3d expected = start[body] + v * t;
     double radius = 6.35e-3 / 2;
     if (body < 2) {

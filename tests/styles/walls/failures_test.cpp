@@ -1,24 +1,24 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bad wall lines: one sentence that names the word, its value and the remedy.
-#include "styles/walls/wall_words.h"
+#include "styles/walls/wall_arguments.h"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 #include <stdexcept>
 
-using eccentra::cluster::read_wall_words;
+using eccentra::styles::read_wall_arguments;
 
 namespace {
 
 std::string sentence_for(const std::string& line) {
   std::istringstream stream(line);
-  std::vector<std::string> words;
+  std::vector<std::string> arguments;
   for (std::string word; stream >> word;)
-    words.push_back(word);
+    arguments.push_back(word);
   try {
-    read_wall_words(words);
+    read_wall_arguments(arguments);
   } catch (const std::invalid_argument& problem) {
     return problem.what();
   }
@@ -34,7 +34,7 @@ const std::string kModel = "model hertz tangential history ";
 
 } // namespace
 
-TEST(WallWords, GoodLinesAreRead) {
+TEST(WallArguments, GoodLinesAreRead) {
   EXPECT_EQ(sentence_for(kModel + "primitive type 1 zcylinder 0.02 0 0 rotate 5.2"), "accepted");
   EXPECT_EQ(sentence_for(kModel + "rolling_friction cdt torsionTorque on contacts shared primitive type 1 xplane 0"),
             "accepted");
@@ -43,7 +43,7 @@ TEST(WallWords, GoodLinesAreRead) {
             "accepted");
 }
 
-TEST(WallWords, BadLinesAreNamed) {
+TEST(WallArguments, BadLinesAreNamed) {
   expect_names("model hooke tangential history primitive type 1 xplane 0", "'hooke'");
   expect_names(kModel, "no wall is given");
   expect_names(kModel + "primitive type 1 zcylinder 0.02 0", "the line ends");

@@ -244,10 +244,10 @@ TEST(WallSpheres, RollingFrictionShapeIsThatOfStockWalls) {
     const auto rolling = [&](const std::string& style, bool words_last) {
       LiggghtsSession session;
       session.script(wall_scene(1e-5, "0.5", "0.02"));
-      const std::string words = " form " + form + " torsionTorque off";
+      const std::string arguments = " form " + form + " torsionTorque off";
       session.script("fix m6 all property/global shapeRollingFriction peratomtypepair 2 0.03 0.03 0.03 0.03\n"
                      "pair_style gran model hertz tangential history rolling_friction shape" +
-                     words + R"(
+                     arguments + R"(
         pair_coeff * *
         create_atoms 1 single -0.02 0.01 -0.0919 units box
         set group all diameter 6.35e-3 density 2619
@@ -256,7 +256,7 @@ TEST(WallSpheres, RollingFrictionShapeIsThatOfStockWalls) {
       )");
       const std::string wall = " primitive type 1 zplane -0.095";
       session.script("fix floor all " + style + " model hertz tangential history rolling_friction shape" +
-                     (words_last ? wall + words : words + wall) + "\nfix integrate all nve/sphere\nrun 10000");
+                     (words_last ? wall + arguments : arguments + wall) + "\nfix integrate all nve/sphere\nrun 10000");
       return state_of(session, 1);
     };
     const auto ours = rolling("wall/gran/cluster", false);

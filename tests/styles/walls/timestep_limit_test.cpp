@@ -13,7 +13,7 @@
 #include <cmath>
 #include <vector>
 
-using namespace eccentra::cluster;
+using namespace eccentra::contact;
 using eccentra::test::LiggghtsSession;
 using eccentra::test::wall_scene;
 

@@ -5,7 +5,8 @@
 #include "styles/rolling/register_contact_model.h"
 
 namespace {
-const eccentra::rolling::RegisterHertzHistory<LIGGGHTS::ContactModels::ROLLING_ECCENTRIC> registration("eccentric");
-const eccentra::host::RegisterWords words("rolling_friction", "eccentric",
-                                          "eq (32), the torque of a shape at the sphere's orientation: shape cube 64");
+const eccentra::styles::RegisterHertzHistory<LIGGGHTS::ContactModels::ROLLING_ECCENTRIC> registration("eccentric");
+const eccentra::styles::RegisterKeywords
+    arguments("rolling_friction", "eccentric",
+              "eq (32), the torque of a shape at the sphere's orientation: shape cube 64");
 } // namespace

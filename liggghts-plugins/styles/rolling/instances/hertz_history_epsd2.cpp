@@ -4,5 +4,5 @@
 #include "styles/rolling/register_contact_model.h"
 
 namespace {
-const eccentra::rolling::RegisterHertzHistory<LIGGGHTS::ContactModels::ROLLING_EPSD2> registration("epsd2");
+const eccentra::styles::RegisterHertzHistory<LIGGGHTS::ContactModels::ROLLING_EPSD2> registration("epsd2");
 } // namespace

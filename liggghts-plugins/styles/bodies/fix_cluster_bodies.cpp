@@ -1,0 +1,332 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Per-body data of clusters as a LIGGGHTS fix.
+#include "styles/bodies/fix_cluster_bodies.h"
+
+#include "styles/bodies/incompatible_styles.h"
+#include "styles/bodies/restart_version.h"
+#include "styles/entry/style_registry.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "lammps.h"
+#include "memory.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <cstring>
+
+namespace eccentra::styles {
+
+using namespace LAMMPS_NS;
+
+namespace {
+
+const styles::RegisterFix<FixClusterBodies>
+    registered(FixClusterBodies::style_name, "orientation and shape of clusters (made by itself, never typed)");
+
+/// Appends plain values to the bytes that a restart file keeps.
+class ByteWriter {
+ public:
+  template <class T> void put(const T& value) {
+    const char* bytes = reinterpret_cast<const char*>(&value);
+    data.insert(data.end(), bytes, bytes + sizeof(T));
+  }
+  std::vector<char> data;
+};
+
+/// Takes them out again in the same order.
+class ByteReader {
+ public:
+  explicit ByteReader(const char* data) : data_(data) {}
+  template <class T> T get() {
+    T value;
+    std::memcpy(&value, data_, sizeof(T));
+    data_ += sizeof(T);
+    return value;
+  }
+
+ private:
+  const char* data_;
+};
+
+} // namespace
+
+FixClusterBodies::FixClusterBodies(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {
+  restart_peratom = 1;
+  restart_global = 1;
+  create_attribute = 1;
+  peratom_flag = 1;
+  size_peratom_cols = columns;
+  peratom_freq = 1;
+  comm_forward = 5;
+  grow_arrays(atom->nmax);
+  atom->add_callback(0);
+  atom->add_callback(1);
+  for (int i = 0; i < atom->nlocal; ++i)
+    set_arrays(i);
+}
+
+FixClusterBodies::~FixClusterBodies() {
+  atom->delete_callback(id, 0);
+  atom->delete_callback(id, 1);
+  memory->destroy(data_);
+}
+
+FixClusterBodies* FixClusterBodies::find(LAMMPS* lmp) {
+  return static_cast<FixClusterBodies*>(lmp->modify->find_fix_style_strict(style_name, 0));
+}
+
+FixClusterBodies& FixClusterBodies::require(LAMMPS* lmp) {
+  if (FixClusterBodies* there = find(lmp))
+    return *there;
+  std::string arguments[] = {fix_id, "all", style_name};
+  char* arg[] = {arguments[0].data(), arguments[1].data(), arguments[2].data()};
+  lmp->modify->add_fix(3, arg);
+  return *find(lmp);
+}
+
+// Modify::setup wipes the per-atom data of a fix that it takes for new.
+void FixClusterBodies::post_create() {
+  just_created = 0;
+}
+
+int FixClusterBodies::setmask() {
+  return FixConst::PRE_FORCE;
+}
+
+void FixClusterBodies::init() {
+  refuse_incompatible_styles(lmp, *this);
+}
+
+double FixClusterBodies::extra_radius(int i) const {
+  return shape_id(i) == plain_sphere ? atom->radius[i] : 0;
+}
+
+Eigen::Vector3d FixClusterBodies::inertia(int i) const {
+  const int s = shape_id(i);
+  if (s != plain_sphere)
+    return atom->rmass[i] * shapes_[s].inertia_per_mass();
+  constexpr double solid_sphere = 0.4;
+  return Eigen::Vector3d::Constant(solid_sphere * atom->rmass[i] * atom->radius[i] * atom->radius[i]);
+}
+
+void FixClusterBodies::make_body(int i, int shape_id, double density, const double* q) {
+  const shape::ClusterShape& shape = shapes_[shape_id];
+  atom->radius[i] = shape.bounding_radius();
+  atom->rmass[i] = density * shape.volume();
+  atom->density[i] = density;
+  std::copy(q, q + 4, quaternion(i));
+  contact::normalise(quaternion(i));
+  data_[i][shape_column] = shape_id;
+  contact::rotation_matrix(quaternion(i), rotation(i));
+  momentum_from_omega(i);
+}
+
+void FixClusterBodies::momentum_from_omega(int i) {
+  contact::angular_momentum(rotation(i), inertia(i).data(), atom->omega[i], angular_momentum(i));
+}
+
+void FixClusterBodies::omega_from_momentum(int i) {
+  const int s = shape_id(i);
+  if (s != plain_sphere && shapes_.free_rotation(s).spherical()) {
+    const double rate = shapes_.free_rotation(s).world_rate() / atom->rmass[i];
+    for (int k = 0; k < 3; ++k)
+      atom->omega[i][k] = rate * angular_momentum(i)[k];
+    return;
+  }
+  contact::angular_velocity(rotation(i), inertia(i).data(), angular_momentum(i), atom->omega[i]);
+}
+
+void FixClusterBodies::setup_pre_force(int) {
+  all_round_ = true;
+  for (int id = 0; id < shapes_.size(); ++id)
+    all_round_ = all_round_ && shapes_.surface(id).single_at_centre;
+  send_shapes_ = true;
+  bring_to_ghosts();
+  update_rotations(0, atom->nlocal + atom->nghost);
+}
+
+void FixClusterBodies::pre_force(int) {
+  send_shapes_ = neighbor->ago == 0;
+  if (send_shapes_ || !all_round_)
+    bring_to_ghosts();
+  // Others than nve/cluster may turn bodies when lists are made anew (insertion), but not in between.
+  update_rotations(send_shapes_ ? 0 : atom->nlocal, atom->nlocal + atom->nghost);
+}
+
+void FixClusterBodies::bring_to_ghosts() {
+  if (atom->nghost > 0 || comm->nprocs > 1)
+    comm->forward_comm_fix(this);
+}
+
+void FixClusterBodies::update_rotations(int first, int last) {
+  for (int i = first; i < last; ++i)
+    if (first == 0 || !is_round(i))
+      contact::rotation_matrix(data_[i], rotation(i));
+}
+
+void FixClusterBodies::grow_arrays(int nmax) {
+  memory->grow(data_, nmax, static_cast<int>(columns), "cluster_bodies:data");
+  array_atom = data_;
+  rotation_.resize(9 * static_cast<std::size_t>(nmax), 0.);
+  if (resuming_)
+    resumed_.resize(nmax);
+}
+
+void FixClusterBodies::copy_arrays(int i, int j, int) {
+  std::copy(data_[i], data_[i] + columns, data_[j]);
+  std::copy(rotation(i), rotation(i) + 9, rotation(j));
+  if (resuming_)
+    resumed_[j] = resumed_[i];
+}
+
+void FixClusterBodies::resume_forces() {
+  if (!resuming_)
+    return;
+  for (int i = 0; i < atom->nlocal; ++i)
+    for (int k = 0; k < 3; ++k) {
+      atom->f[i][k] = resumed_[i][k];
+      atom->torque[i][k] = resumed_[i][3 + k];
+    }
+  resuming_ = false;
+  resumed_.clear();
+}
+
+void FixClusterBodies::set_arrays(int i) {
+  std::fill(data_[i], data_[i] + columns, 0.);
+  data_[i][0] = 1;
+  data_[i][shape_column] = plain_sphere;
+  contact::rotation_matrix(data_[i], rotation(i));
+}
+
+int FixClusterBodies::pack_exchange(int i, double* buf) {
+  std::copy(data_[i], data_[i] + columns, buf);
+  if (!resuming_)
+    return columns;
+  std::copy(resumed_[i].begin(), resumed_[i].end(), buf + columns);
+  return columns + 6;
+}
+
+int FixClusterBodies::unpack_exchange(int i, double* buf) {
+  std::copy(buf, buf + columns, data_[i]);
+  contact::rotation_matrix(data_[i], rotation(i));
+  if (!resuming_)
+    return columns;
+  std::copy(buf + columns, buf + columns + 6, resumed_[i].begin());
+  return columns + 6;
+}
+
+int FixClusterBodies::pack_restart(int i, double* buf) {
+  buf[0] = size_restart(i);
+  double* next = std::copy(data_[i], data_[i] + columns, buf + 1);
+  next = std::copy(atom->f[i], atom->f[i] + 3, next);
+  std::copy(atom->torque[i], atom->torque[i] + 3, next);
+  return size_restart(i);
+}
+
+void FixClusterBodies::unpack_restart(int i, int nth) {
+  const double* extra = atom->extra[i];
+  int m = 0;
+  for (int k = 0; k < nth; ++k)
+    m += static_cast<int>(extra[m]);
+  const double* record = extra + m + 1;
+  std::copy(record, record + columns, data_[i]);
+  contact::rotation_matrix(data_[i], rotation(i));
+  if (resuming_)
+    std::copy(record + columns, record + columns + 6, resumed_[i].begin());
+}
+
+int FixClusterBodies::size_restart(int) {
+  return columns + 1 + 6;
+}
+int FixClusterBodies::maxsize_restart() {
+  return columns + 1 + 6;
+}
+
+void FixClusterBodies::write_restart(FILE* fp) {
+  if (comm->me != 0)
+    return;
+  ByteWriter bytes;
+  bytes.put(restart_mark);
+  // Within a run, the run goes on with its forces; between runs, the next one computes them anew, restarted or not.
+  bytes.put(update->whichflag != 0);
+  bytes.put(shapes_.size());
+  for (int id = 0; id < shapes_.size(); ++id) {
+    const shape::ClusterShape& shape = shapes_[id];
+    bytes.put(static_cast<int>(shape.name().size()));
+    for (char c : shape.name())
+      bytes.put(c);
+    bytes.put(static_cast<int>(shape.spheres().size()));
+    for (const shape::Sphere& s : shape.spheres())
+      for (double value : {s.centre.x(), s.centre.y(), s.centre.z(), s.radius})
+        bytes.put(value);
+    bytes.put(shape.volume());
+    bytes.put(shape.surface());
+    for (int k = 0; k < 3; ++k)
+      bytes.put(shape.inertia_per_mass()[k]);
+  }
+  const int size = static_cast<int>(bytes.data.size());
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(bytes.data.data(), 1, size, fp);
+}
+
+void FixClusterBodies::restart(char* buf) {
+  ByteReader bytes(buf);
+  if (const std::string problem = restart_problem(bytes.get<int>(), "clusters"); !problem.empty())
+    error->all(FLERR, problem.c_str());
+  resuming_ = bytes.get<bool>();
+  if (resuming_)
+    resumed_.assign(atom->nmax, {});
+  const int count = bytes.get<int>();
+  for (int id = 0; id < count; ++id) {
+    std::string name(bytes.get<int>(), ' ');
+    for (char& c : name)
+      c = bytes.get<char>();
+    std::vector<shape::Sphere> spheres(bytes.get<int>());
+    for (shape::Sphere& s : spheres) {
+      for (int k = 0; k < 3; ++k)
+        s.centre[k] = bytes.get<double>();
+      s.radius = bytes.get<double>();
+    }
+    shape::MassProperties properties;
+    properties.volume = bytes.get<double>();
+    properties.surface = bytes.get<double>();
+    properties.centre.setZero();
+    properties.inertia_per_mass.setZero();
+    for (int k = 0; k < 3; ++k)
+      properties.inertia_per_mass(k, k) = bytes.get<double>();
+    shapes_.add(shape::ClusterShape(name, std::move(spheres), properties));
+  }
+}
+
+int FixClusterBodies::pack_comm(int n, int* list, double* buf, int, int*) {
+  int m = 0;
+  for (int k = 0; k < n; ++k) {
+    const double* d = data_[list[k]];
+    for (int c = 0; c < 4; ++c)
+      buf[m++] = d[c];
+    if (send_shapes_)
+      buf[m++] = d[shape_column];
+  }
+  return send_shapes_ ? 5 : 4;
+}
+
+void FixClusterBodies::unpack_comm(int n, int first, double* buf) {
+  int m = 0;
+  for (int i = first; i < first + n; ++i) {
+    for (int c = 0; c < 4; ++c)
+      data_[i][c] = buf[m++];
+    if (send_shapes_)
+      data_[i][shape_column] = buf[m++];
+  }
+}
+
+double FixClusterBodies::memory_usage() {
+  return static_cast<double>(atom->nmax) * (columns + 9) * sizeof(double);
+}
+
+} // namespace eccentra::styles

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// fix particletemplate/multisphere/shape: our shapes, with their exact mass and inertia, for stock fix multisphere.
+#include "shape/cluster_shape.h"
+#include "styles/entry/style_registry.h"
+
+#include <mpi.h>
+
+#include "comm.h"
+#include "error.h"
+#include "fix_template_multisphere.h"
+#include "lammps.h"
+#include "modify.h"
+
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace eccentra::styles {
+
+namespace {
+
+using namespace LAMMPS_NS;
+
+// Everything that looks for templates knows this name; ours is stock's template, given other words.
+constexpr const char* kStockStyle = "particletemplate/multisphere";
+// Stock still throws dice for the share of each sub-sphere in the volume, which only its own CFD coupling reads.
+constexpr const char* kVolumeShareTries = "100000";
+
+std::string exact(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+double number_after(const std::vector<std::string>& arguments, std::size_t at, const std::string& name) {
+  if (at >= arguments.size())
+    throw std::invalid_argument("the line ends where a number for " + name + " was expected");
+  std::size_t used = 0;
+  double value = 0.0;
+  try {
+    value = std::stod(arguments[at], &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used != arguments[at].size() || !(value > 0.0) || value > 1e300)
+    throw std::invalid_argument(name + " must be a number > 0, not '" + arguments[at] + "'");
+  return value;
+}
+
+/// Words of the line after the seed, taken apart.
+struct TemplateArguments {
+  std::vector<std::string> before; ///< arguments of all stock templates, passed on as they are
+  std::vector<std::string> after;  ///< arguments of stock multisphere, passed on as they are
+  std::vector<std::string> shape;
+  double density = 0.0;
+  double diameter = 0.0;
+  bool has_type = false;
+};
+
+bool is_pass_through(const std::string& word) {
+  return word == "type" || word == "fflag" || word == "tflag";
+}
+
+TemplateArguments take_apart(const std::vector<std::string>& arguments) {
+  TemplateArguments parts;
+  std::size_t at = 0;
+  for (; at < arguments.size() && arguments[at] != "shape"; ++at) {
+    if (arguments[at] == "density") {
+      if (at + 1 >= arguments.size() || arguments[at + 1] != "constant")
+        throw std::invalid_argument("density must be 'density constant VALUE': bodies of one template are alike");
+      parts.density = number_after(arguments, at + 2, "density");
+    }
+    parts.before.push_back(arguments[at]);
+  }
+  if (at == arguments.size())
+    throw std::invalid_argument("no shape is given: add, for example, 'shape cube 64 diameter 6.35e-3'");
+  if (parts.density == 0.0)
+    throw std::invalid_argument("no density is given: add 'density constant VALUE' before 'shape'");
+  for (++at; at < arguments.size() && arguments[at] != "diameter" && !is_pass_through(arguments[at]); ++at)
+    parts.shape.push_back(arguments[at]);
+  if (at < arguments.size() && arguments[at] == "diameter") {
+    parts.diameter = number_after(arguments, at + 1, "diameter");
+    at += 2;
+  }
+  for (; at < arguments.size(); ++at) {
+    parts.has_type = parts.has_type || arguments[at] == "type";
+    parts.after.push_back(arguments[at]);
+  }
+  if (!parts.after.empty() && !is_pass_through(parts.after.front()))
+    throw std::invalid_argument("unknown word '" + parts.after.front() +
+                                "' after the shape: diameter, type, fflag and "
+                                "tflag are there");
+  return parts;
+}
+
+/// The line that stock understands.
+std::vector<std::string> stock_arguments(const TemplateArguments& parts, const shape::ClusterShape& shape,
+                                         int default_type) {
+  std::vector<std::string> arguments = parts.before;
+  arguments.insert(arguments.end(),
+                   {"nspheres", std::to_string(shape.spheres().size()), "ntry", kVolumeShareTries, "spheres"});
+  for (const shape::Sphere& sphere : shape.spheres())
+    for (const double value : {sphere.centre.x(), sphere.centre.y(), sphere.centre.z(), sphere.radius})
+      arguments.push_back(exact(value));
+  const double mass = parts.density * shape.volume();
+  const Eigen::Vector3d inertia = mass * shape.inertia_per_mass();
+  // Upper triangle by rows; the body frame is that of the principal axes.
+  arguments.insert(arguments.end(), {"mass", exact(mass), "inertia_tensor", exact(inertia[0]), "0", "0",
+                                     exact(inertia[1]), "0", exact(inertia[2]), "use_density"});
+  arguments.insert(arguments.end(), parts.after.begin(), parts.after.end());
+  if (!parts.has_type)
+    arguments.insert(arguments.end(), {"type", std::to_string(default_type)});
+  return arguments;
+}
+
+Fix* create(LAMMPS* lmp, int narg, char** arg) {
+  const std::string where = "fix " + std::string(arg[0]) + " particletemplate/multisphere/shape: ";
+  try {
+    if (narg < 5)
+      throw std::invalid_argument("write: SEED atom_type 1 density constant VALUE shape cube 64 diameter D");
+    const TemplateArguments parts = take_apart({arg + 4, arg + narg});
+    std::size_t used = 0;
+    const shape::ClusterShape shape = shape::make_shape(parts.shape, 0, used, parts.diameter);
+    if (used != parts.shape.size())
+      throw std::invalid_argument("unknown word '" + parts.shape[used] + "' after the shape");
+    if (shape.spheres().size() < 2)
+      throw std::invalid_argument("shape '" + shape.name() +
+                                  "' is one sphere, which fix multisphere does not take: use particletemplate/sphere");
+    std::vector<std::string> arguments = {arg[0], arg[1], kStockStyle, arg[3]};
+    const int default_type = lmp->modify->n_fixes_style_strict(kStockStyle) + 1;
+    for (std::string& word : stock_arguments(parts, shape, default_type))
+      arguments.push_back(std::move(word));
+    std::vector<char*> pointers;
+    for (std::string& word : arguments)
+      pointers.push_back(word.data());
+    return new FixTemplateMultisphere(lmp, static_cast<int>(pointers.size()), pointers.data());
+  } catch (const std::invalid_argument& problem) {
+    lmp->error->all(FLERR, (where + problem.what()).c_str());
+    return nullptr;
+  }
+}
+
+const styles::RegisterStyle record({"fix", "particletemplate/multisphere/shape",
+                                    "our shapes with exact mass properties for stock fix multisphere", &create});
+
+} // namespace
+
+} // namespace eccentra::styles

@@ -1,0 +1,345 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// fix timestep/limit: sums stiffness over all contacts of each body, reports, and stops a run whose step is too large.
+#include "styles/pairs/fix_timestep_limit.h"
+
+#include "base/eigen_views.h"
+#include "contact/shared_contacts.h"
+#include "styles/bodies/fix_cluster_bodies.h"
+#include "styles/entry/style_registry.h"
+#include "styles/pairs/pair_gran_cluster.h"
+#include "styles/walls/fix_wall_gran_cluster.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "force.h"
+#include "global_properties.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "pair.h"
+#include "property_registry.h"
+#include "update.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+namespace eccentra::styles {
+
+using namespace LAMMPS_NS;
+
+namespace {
+
+const styles::RegisterFix<FixTimestepLimit> record("timestep/limit",
+                                                   "largest stable time step from contacts, mass and inertia");
+
+// A limit that has moved by less than this is not worth another line in the log.
+constexpr double kReportChange = 0.1;
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+double number(const char* word, const std::string& name) {
+  char* end = nullptr;
+  const double value = std::strtod(word, &end);
+  if (end == word || *end || !(value > 0.0) || !std::isfinite(value))
+    throw std::invalid_argument(name + " must be a number > 0, not '" + word + "'");
+  return value;
+}
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+} // namespace
+
+FixTimestepLimit::FixTimestepLimit(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {
+  nevery = 1000;
+  try {
+    for (int at = 3; at < narg; at += 2) {
+      const std::string word = arg[at];
+      if (at + 1 >= narg)
+        throw std::invalid_argument("the line ends where a value for '" + word + "' was expected");
+      const char* value = arg[at + 1];
+      if (word == "safety") {
+        safety_ = number(value, word);
+      } else if (word == "speed") {
+        speed_ = number(value, word);
+      } else if (word == "every") {
+        const double steps = number(value, word);
+        if (steps != std::floor(steps) || steps > std::numeric_limits<int>::max())
+          throw std::invalid_argument("every must be a whole number of steps, not '" + std::string(value) + "'");
+        nevery = static_cast<int>(steps);
+      } else if (word == "enforce") {
+        if (std::strcmp(value, "yes") != 0 && std::strcmp(value, "no") != 0)
+          throw std::invalid_argument("enforce must be yes or no, not '" + std::string(value) + "'");
+        enforce_ = std::strcmp(value, "yes") == 0;
+      } else {
+        throw std::invalid_argument("unknown word '" + word + "': safety, every, enforce and speed are there");
+      }
+    }
+  } catch (const std::invalid_argument& problem) {
+    fail(problem.what());
+  }
+  scalar_flag = 1;
+  vector_flag = 1;
+  size_vector = 5;
+  global_freq = 1;
+  extscalar = 0;
+  extvector = 0;
+  limit_ = {kNever, 0, -1, 0};
+}
+
+void FixTimestepLimit::fail(const std::string& sentence) {
+  error->all(FLERR, ("fix " + std::string(id) + " timestep/limit: " + sentence).c_str());
+  throw std::logic_error("unreachable: error->all ends the process");
+}
+
+int FixTimestepLimit::setmask() {
+  return FixConst::END_OF_STEP;
+}
+
+void FixTimestepLimit::init() {
+  if (!force->pair || std::strncmp(force->pair_style, "gran", 4) != 0)
+    fail("knows Hertz contacts of pair styles gran and gran/cluster only, not '" +
+         std::string(force->pair ? force->pair_style : "none") + "'");
+  if (modify->n_fixes_style("multisphere") > 0)
+    fail("knows spheres and the bodies of nve/cluster, not those of stock fix multisphere: leave one of the two fixes "
+         "out");
+  const char* caller = "timestep/limit";
+  PropertyRegistry& registry = force->registry;
+  registry.registerProperty("Yeff", &MODEL_PARAMS::createYeff);
+  registry.registerProperty("Geff", &MODEL_PARAMS::createGeff);
+  registry.registerProperty("betaeff", &MODEL_PARAMS::createBetaEff);
+  registry.connect("Yeff", youngs_, caller);
+  registry.connect("Geff", shear_, caller);
+  registry.connect("betaeff", damping_, caller);
+  bodies_ = FixClusterBodies::find(lmp);
+  const auto* pair = dynamic_cast<const PairGranCluster*>(force->pair);
+  pair_shares_ = pair && pair->arguments().sharing == ContactSharing::shared;
+}
+
+void FixTimestepLimit::setup(int) {
+  evaluate();
+}
+
+void FixTimestepLimit::end_of_step() {
+  evaluate();
+}
+
+contact::ContactStiffness FixTimestepLimit::stiffness(int type, int other_type, double radius, double overlap,
+                                                      double mass) const {
+  return contact::hertz_stiffness(youngs_[type][other_type], shear_[type][other_type], -damping_[type][other_type],
+                                  radius, overlap, mass);
+}
+
+Eigen::Matrix3d FixTimestepLimit::inertia(int i) const {
+  if (bodies_ && bodies_->shape_id(i) != FixClusterBodies::plain_sphere) {
+    const Eigen::Matrix3d r = base::row_major(bodies_->rotation(i));
+    return r * bodies_->inertia(i).asDiagonal() * r.transpose();
+  }
+  constexpr double solid_sphere = 0.4;
+  return solid_sphere * atom->rmass[i] * atom->radius[i] * atom->radius[i] * Eigen::Matrix3d::Identity();
+}
+
+void FixTimestepLimit::add_pair(int i, int j, std::vector<contact::BodyStiffness>& bodies) {
+  static const contact::SurfaceSpheres plain;
+  const auto spheres_of = [&](int k) -> const contact::SurfaceSpheres& {
+    return bodies_ ? bodies_->shapes().surface(bodies_->shape_id(k)) : plain;
+  };
+  const auto extra_of = [&](int k) { return bodies_ ? bodies_->extra_radius(k) : atom->radius[k]; };
+  const auto rotation_of = [&](int k) -> Eigen::Matrix3d {
+    if (!bodies_)
+      return Eigen::Matrix3d::Identity();
+    return base::row_major(bodies_->rotation(k));
+  };
+  const Eigen::Vector3d apart = base::vector3(atom->x[j]) - base::vector3(atom->x[i]);
+  if (apart.norm() >= atom->radius[i] + atom->radius[j])
+    return;
+  const contact::SurfaceSpheres& a = spheres_of(i);
+  const contact::SurfaceSpheres& b = spheres_of(j);
+  const Eigen::Matrix3d ra = rotation_of(i);
+  const Eigen::Matrix3d rb = rotation_of(j);
+  const double mass = atom->rmass[i] * atom->rmass[j] / (atom->rmass[i] + atom->rmass[j]);
+  touching_.clear();
+  contact::SharedStiffness all;
+  for (int p = 0; p < a.count; ++p) {
+    const double radius_a = a.r[p] + extra_of(i);
+    const Eigen::Vector3d arm_a = ra * Eigen::Vector3d(a.x[p], a.y[p], a.z[p]);
+    if ((apart - arm_a).norm() >= radius_a + atom->radius[j])
+      continue;
+    for (int q = 0; q < b.count; ++q) {
+      const double radius_b = b.r[q] + extra_of(j);
+      const Eigen::Vector3d arm_b = rb * Eigen::Vector3d(b.x[q], b.y[q], b.z[q]);
+      const Eigen::Vector3d line = apart + arm_b - arm_a;
+      const double distance = line.norm();
+      const double overlap = radius_a + radius_b - distance;
+      if (overlap <= 0 || distance == 0)
+        continue;
+      const Eigen::Vector3d n = line / distance;
+      const double radius = radius_a * radius_b / (radius_a + radius_b);
+      const contact::ContactStiffness contact = stiffness(atom->type[i], atom->type[j], radius, overlap, mass);
+      touching_.push_back({contact, n, arm_a + (radius_a - 0.5 * overlap) * n, arm_b - (radius_b - 0.5 * overlap) * n});
+      all.add(contact.normal, overlap, n.x(), n.y(), n.z());
+    }
+  }
+  constexpr double kBothMove = 2;
+  for (Touching& t : touching_) {
+    if (pair_shares_) {
+      const double share = all.damping_share(t.contact.normal, t.n.x(), t.n.y(), t.n.z());
+      t.contact.normal_damping *= share;
+      t.contact.tangential_damping *= share;
+    }
+    if (i < atom->nlocal)
+      bodies[i].add(t.contact, t.n, t.arm_a, kBothMove);
+    if (j < atom->nlocal)
+      bodies[j].add(t.contact, t.n, t.arm_b, kBothMove);
+  }
+}
+
+void FixTimestepLimit::add_body_contacts(std::vector<contact::BodyStiffness>& bodies) {
+  const NeighList* list = force->pair->list;
+  if (!list)
+    return;
+  for (int ii = 0; ii < list->inum; ++ii) {
+    const int i = list->ilist[ii];
+    for (int k = 0; k < list->numneigh[i]; ++k)
+      add_pair(i, list->firstneigh[i][k] & NEIGHMASK, bodies);
+  }
+}
+
+void FixTimestepLimit::add_wall_contacts(std::vector<contact::BodyStiffness>& bodies) {
+  constexpr double kWallRests = 1;
+  for (int f = 0; f < modify->nfix; ++f) {
+    auto* wall = dynamic_cast<FixWallGranCluster*>(modify->fix[f]);
+    if (!wall)
+      continue;
+    wall->for_each_touch([&](const contact::WallTouch& touch) {
+      const int i = touch.atom;
+      contact::ContactStiffness contact =
+          stiffness(atom->type[i], touch.wall_type, touch.radius, touch.overlap, atom->rmass[i]);
+      contact.normal_damping *= touch.share;
+      contact.tangential_damping *= touch.share;
+      bodies[i].add(contact, touch.normal, touch.lever, kWallRests);
+    });
+  }
+}
+
+FixTimestepLimit::Limit FixTimestepLimit::limit_of_contacts() {
+  std::vector<contact::BodyStiffness> bodies(atom->nlocal);
+  add_body_contacts(bodies);
+  add_wall_contacts(bodies);
+  Limit limit{kNever, 0, -1, 0};
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const double step = bodies[i].critical_step(atom->rmass[i], inertia(i));
+    if (step < limit.step)
+      limit = {step, atom->tag[i], bodies_ ? bodies_->shape_id(i) : -1, bodies[i].contacts()};
+  }
+  return limit;
+}
+
+/// The stiffest moment of a central impact of two like bodies, one contact at the smallest sub-sphere, at the largest
+/// relative speed that the scene has (or that the user expects).
+FixTimestepLimit::Limit FixTimestepLimit::limit_of_impacts() {
+  // max(v) and max(-v): their sum is the range of velocities.
+  double extreme[6] = {-kNever, -kNever, -kNever, -kNever, -kNever, -kNever};
+  double fastest = 0;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      extreme[k] = std::max(extreme[k], atom->v[i][k]);
+      extreme[3 + k] = std::max(extreme[3 + k], -atom->v[i][k]);
+    }
+    fastest = std::max(fastest, base::vector3(atom->v[i]).norm());
+  }
+  MPI_Allreduce(MPI_IN_PLACE, extreme, 6, MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, world);
+  double speed = std::max(speed_, fastest); // walls at rest are hit as fast as bodies move
+  if (atom->natoms > 0)
+    speed = std::max(speed,
+                     Eigen::Vector3d(extreme[0] + extreme[3], extreme[1] + extreme[4], extreme[2] + extreme[5]).norm());
+  Limit limit{kNever, 0, -1, 0};
+  if (speed <= 0)
+    return limit;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const int shape = bodies_ ? bodies_->shape_id(i) : -1;
+    const double radius = shape >= 0 ? bodies_->shapes().surface(shape).smallest_radius : atom->radius[i];
+    const int type = atom->type[i];
+    // Two like bodies: half the mass, half the radius. The stiffness grows with the 1/5 power of the speed only.
+    const double mass = atom->rmass[i] / 2;
+    const double overlap = contact::impact_overlap(youngs_[type][type], radius / 2, mass, speed, 1);
+    const contact::ContactStiffness contact = stiffness(type, type, radius / 2, overlap, mass);
+    const double w = std::sqrt(contact.normal / mass);
+    const double z = contact.normal_damping / (2 * mass * w);
+    const double step = 2 / w * (std::sqrt(1 + z * z) - z);
+    if (step < limit.step)
+      limit = {step, 0, shape, 1};
+  }
+  return limit;
+}
+
+void FixTimestepLimit::evaluate() {
+  const Limit contacts = limit_of_contacts();
+  const Limit impacts = limit_of_impacts();
+  const Limit mine = impacts.step < contacts.step ? impacts : contacts;
+  struct {
+    double step;
+    int rank;
+  } least{mine.step, comm->me};
+  MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE_INT, MPI_MINLOC, world);
+  limit_ = mine;
+  MPI_Bcast(&limit_, sizeof limit_, MPI_BYTE, least.rank, world);
+  report(limit_);
+}
+
+std::string FixTimestepLimit::describe(const Limit& limit) const {
+  const std::string shape = limit.shape >= 0 ? bodies_->shapes()[limit.shape].name() : "sphere";
+  if (limit.tag == 0)
+    return "an impact of " + shape + " to come";
+  return "body " + std::to_string(limit.tag) + ", " + shape + ", " + std::to_string(limit.contacts) + " contacts";
+}
+
+void FixTimestepLimit::report(const Limit& limit) {
+  if (limit.step == kNever)
+    return;
+  const double step = update->dt;
+  const bool over = step > safety_ * limit.step;
+  const std::string facts = "critical step " + short_number(limit.step) + " s (" + describe(limit) + "); time step " +
+                            short_number(step) + " s is " + short_number(step / limit.step) + " of it, safety " +
+                            short_number(safety_) + " allows " + short_number(safety_ * limit.step) + " s";
+  if (over && enforce_)
+    fail(facts + ": reduce timestep, reduce youngsModulus or raise safety");
+  if (std::abs(limit.step - reported_) < kReportChange * reported_)
+    return;
+  reported_ = limit.step;
+  const std::string line = std::string(over ? "WARNING: " : "") + "fix " + id + " timestep/limit at step " +
+                           std::to_string(update->ntimestep) + ": " + facts + "\n";
+  if (comm->me == 0)
+    for (FILE* file : {screen, logfile})
+      if (file) {
+        std::fputs(line.c_str(), file);
+        std::fflush(file);
+      }
+}
+
+double FixTimestepLimit::compute_scalar() {
+  return limit_.step;
+}
+
+double FixTimestepLimit::compute_vector(int n) {
+  switch (n) {
+  case 0:
+    return limit_.step;
+  case 1:
+    return update->dt / limit_.step;
+  case 2:
+    return safety_ * limit_.step;
+  case 3:
+    return limit_.tag;
+  default:
+    return limit_.contacts;
+  }
+}
+
+} // namespace eccentra::styles

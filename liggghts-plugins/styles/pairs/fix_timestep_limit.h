@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// fix timestep/limit: how large the time step may be, from the contacts that there are and the impacts that may come.
+#pragma once
+
+#include "contact/timestep_limit_formula.h"
+
+#include <mpi.h>
+
+#include "fix.h"
+
+#include <string>
+#include <vector>
+
+namespace eccentra::styles {
+
+class FixClusterBodies;
+
+/// Scalar: critical step [s] (inf where nothing touches or moves). Vector: (1) critical step, (2) step / critical step,
+/// (3) step that the safety factor allows [s], (4) tag of the body that sets the limit (0: an impact to come),
+/// (5) contacts of that body.
+class FixTimestepLimit : public LAMMPS_NS::Fix {
+ public:
+  FixTimestepLimit(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
+
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void end_of_step() override;
+  double compute_scalar() override;
+  double compute_vector(int n) override;
+
+ private:
+  struct Limit {
+    double step;
+    int tag;   ///< of the body; 0: an impact to come
+    int shape; ///< -1: plain sphere
+    int contacts;
+  };
+
+  struct Touching {
+    contact::ContactStiffness contact;
+    Eigen::Vector3d n, arm_a, arm_b;
+  };
+
+  [[noreturn]] void fail(const std::string& sentence);
+  void evaluate();
+  void add_body_contacts(std::vector<contact::BodyStiffness>& bodies);
+  void add_wall_contacts(std::vector<contact::BodyStiffness>& bodies);
+  void add_pair(int i, int j, std::vector<contact::BodyStiffness>& bodies);
+  Limit limit_of_contacts();
+  Limit limit_of_impacts();
+  Eigen::Matrix3d inertia(int i) const;
+  contact::ContactStiffness stiffness(int type, int other_type, double radius, double overlap, double mass) const;
+  std::string describe(const Limit& limit) const;
+  void report(const Limit& limit);
+
+  double safety_ = 0.3;
+  double speed_ = 0.0; ///< of impacts that the user expects [m/s]
+  bool enforce_ = false;
+  Limit limit_{};
+  double reported_ = 0.0; ///< critical step of the last report
+  FixClusterBodies* bodies_ = nullptr;
+  bool pair_shares_ = false;
+  std::vector<Touching> touching_; ///< sub-contacts of the pair at hand
+  double** youngs_ = nullptr;
+  double** shear_ = nullptr;
+  double** damping_ = nullptr;
+};
+
+} // namespace eccentra::styles

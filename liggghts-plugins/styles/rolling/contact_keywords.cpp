@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Adds option arguments to the list that LIGGGHTS parses the arguments of a contact model with.
+#include "styles/rolling/contact_keywords.h"
+
+#include "styles/entry/private_access.h"
+
+#include <cstdio>
+
+namespace eccentra::styles {
+// Settings offers on/off, yes/no and numbers; its list of arguments has no other way in.
+struct SettingsList {
+  using type = std::map<std::string, Setting*> Settings::*;
+};
+template struct PrivateMember<SettingsList, &Settings::settings>;
+} // namespace eccentra::styles
+
+namespace eccentra::styles {
+namespace {
+
+class OptionSetting : public Setting {
+ public:
+  OptionSetting(const std::string& model, const std::string& name, int& target,
+                std::vector<std::pair<std::string, int>> options)
+      : Setting(name, 1), model_(model), target_(target), options_(std::move(options)) {
+    target_ = options_.front().second;
+  }
+
+  int parseArguments(char** args) override {
+    if (name != args[0])
+      return 0;
+    std::string known;
+    for (const auto& [word, value] : options_) {
+      if (word == args[1]) {
+        target_ = value;
+        return 2;
+      }
+      known += (known.empty() ? "" : ", ") + word;
+    }
+    error_message = model_ + ": '" + name + " " + args[1] + "' is unknown: use one of " + known;
+    return -1;
+  }
+
+  void print_value(FILE* out) override { std::fprintf(out, "%d", target_); }
+
+ private:
+  std::string model_;
+  int& target_;
+  std::vector<std::pair<std::string, int>> options_;
+};
+
+class ShapeSetting : public Setting {
+ public:
+  explicit ShapeSetting(std::vector<std::string>& target) : Setting("shape", 2), target_(target) {}
+
+  int parseArguments(char** args) override {
+    if (name != args[0])
+      return 0;
+    const int arguments = std::string(args[1]) == "stl" ? 4 : 2;
+    target_.assign(args + 1, args + 1 + arguments);
+    return 1 + arguments;
+  }
+
+  void print_value(FILE* out) override { std::fprintf(out, "%s", target_.empty() ? "none" : target_.front().c_str()); }
+
+ private:
+  std::vector<std::string>& target_;
+};
+
+} // namespace
+
+void register_shape_keywords(Settings& settings, std::vector<std::string>& target) {
+  Setting*& entry = (settings.*styles::Published<styles::SettingsList>::pointer)["shape"];
+  if (!entry)
+    entry = new ShapeSetting(target);
+}
+
+void register_option(Settings& settings, const std::string& model, const std::string& name, int& target,
+                     const std::vector<std::pair<std::string, int>>& options) {
+  Setting*& entry = (settings.*styles::Published<styles::SettingsList>::pointer)[name];
+  if (!entry)
+    entry = new OptionSetting(model, name, target, options);
+}
+
+} // namespace eccentra::styles

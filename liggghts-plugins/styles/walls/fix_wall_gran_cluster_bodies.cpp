@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The short way of wall/gran/cluster for clusters on planes and cylinders: contacts are written straight into the block
+// of the contact law, body after body. Meshes go the long way, by lists of WallTouch.
+#include "contact/plain_wall.h"
+#include "contact/rigid_rotation.h"
+#include "styles/bodies/fix_cluster_bodies.h"
+#include "styles/walls/fix_wall_gran_cluster.h"
+
+#include "atom.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace eccentra::styles {
+
+void FixWallGranCluster::cluster_forces() {
+  const contact::PlainWall wall(*arguments_.surface);
+  int m = 0;
+  bodies_in_block_ = 0;
+  const auto flush = [&] {
+    evaluate(m, !update->setupflag);
+    scatter_clusters(wall);
+    m = 0;
+  };
+  for (const int i : near_clusters_) {
+    double normal[3], from[3];
+    const contact::SurfaceSpheres& spheres = bodies_->shapes().surface(bodies_->shape_id(i));
+    if (hits_.size() < static_cast<std::size_t>(spheres.padded))
+      hits_.resize(spheres.padded);
+    int count = 0;
+    if (contact::nearest(wall, atom->x[i], normal, from) < atom->radius[i]) // of the bounding sphere
+      count = contact::spheres_at_wall(wall, from, bodies_->rotation(i), spheres, hits_.data());
+    if (count > contact::ContactBlock::capacity) {
+      collect(i); // the long way; forces come when all others are done
+      continue;
+    }
+    if (m + count > contact::ContactBlock::capacity)
+      flush();
+    m = add_cluster(wall, i, count, m);
+    if (m >= kBatch)
+      flush();
+  }
+  flush();
+}
+
+int FixWallGranCluster::add_cluster(const contact::PlainWall& wall, int i, int count, const int first) {
+  contact::ContactBlock& block = *block_;
+  contact::WallHistory::Entries& entries = history_[i];
+  int m = first;
+  if (count > 0) {
+    const contact::SurfaceSpheres& spheres = bodies_->shapes().surface(bodies_->shape_id(i));
+    const double *x = atom->x[i], *v = atom->v[i], *w = wall.omega, *rotation = bodies_->rotation(i);
+    for (int n = 0; n < count; ++n) {
+      const int k = hits_[n];
+      const double body[3] = {spheres.x[k], spheres.y[k], spheres.z[k]}, radius = spheres.r[k];
+      double arm[3], normal[3], from[3];
+      contact::to_world(rotation, body, arm);
+      const double centre[3] = {x[0] + arm[0], x[1] + arm[1], x[2] + arm[2]};
+      const double distance = contact::nearest(wall, centre, normal, from);
+      if (distance >= radius)
+        continue;
+      double at[3]; // the wall's point, from its reference
+      for (int d = 0; d < 3; ++d)
+        at[d] = from[d] - distance * normal[d];
+      const double turning[3] = {w[1] * at[2] - w[2] * at[1], w[2] * at[0] - w[0] * at[2], w[0] * at[1] - w[1] * at[0]};
+      for (int d = 0; d < 3; ++d) {
+        block.normal[d][m] = normal[d];
+        block.arm[d][m] = arm[d];
+        block.velocity[d][m] = v[d] - (wall.velocity[d] + turning[d]);
+      }
+      block.radius_a[m] = radius;
+      block.overlap[m] = radius - distance;
+      block.contact_radius[m] = std::sqrt(radius * (radius - distance));
+      sub_in_block_[m] = k;
+      ++m;
+    }
+  }
+  if (m == first) {
+    if (!entries.empty())
+      entries.clear();
+    return m;
+  }
+
+  // As a rule the contacts are those of the last step.
+  bool same = entries.size() == static_cast<std::size_t>(m - first);
+  for (int n = first; same && n < m; ++n)
+    same = entries[n - first].key == contact::WallContactKey(sub_in_block_[n], 0, 0);
+  if (!same) {
+    next_history_.clear();
+    for (int n = first; n < m; ++n) {
+      const contact::WallContactKey key(sub_in_block_[n], 0, 0);
+      const auto old = std::find_if(entries.begin(), entries.end(),
+                                    [&](const contact::WallHistoryEntry& entry) { return entry.key == key; });
+      next_history_.push_back(old != entries.end()
+                                  ? *old
+                                  : contact::WallHistoryEntry{key, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
+    }
+    entries.swap(next_history_);
+  }
+  const double *omega = atom->omega[i], mass = atom->rmass[i];
+  const int type = atom->type[i], wall_type = arguments_.type;
+  const double youngs = youngs_[type][wall_type], shear = shear_[type][wall_type];
+  const double damping = -damping_[type][wall_type], friction = friction_[type][wall_type];
+  for (int n = first; n < m; ++n) {
+    for (int d = 0; d < 3; ++d) {
+      block.spin[d][n] = omega[d]; // the wall's own is in its velocity
+      block.history[d][n] = entries[n - first].shear[d];
+    }
+    block.mass[n] = mass;
+    block.youngs[n] = youngs;
+    block.shear_modulus[n] = shear;
+    block.damping[n] = damping;
+    block.friction[n] = friction;
+    block.share[n] = 1;
+  }
+  if (arguments_.shared)
+    share_damping_in_block(i, first, m);
+  ClusterInBlock& cluster = clusters_in_block_[bodies_in_block_++];
+  cluster.atom = i;
+  cluster.first = first;
+  cluster.last = m;
+  return m;
+}
+
+// The formulas of SharedStiffness and ImpactMass, each contact with each. All contacts have the same materials, so that
+// sqrt(R* overlap) serves as stiffness; of a lever only the part across the normal counts, which is the arm's.
+void FixWallGranCluster::share_damping_in_block(int i, int first, int last) {
+  contact::ContactBlock& c = *block_;
+  const double* r = bodies_->rotation(i);
+  const Eigen::Vector3d& inertia = bodies_->shapes()[bodies_->shape_id(i)].inertia_per_mass();
+  const double inverse[3] = {1 / inertia[0], 1 / inertia[1], 1 / inertia[2]};
+  // sqrt(m_c / m) of an impact along n at the arm.
+  const auto impact_factor = [&](const double* arm, const double* n) {
+    const double turn[3] = {arm[1] * n[2] - arm[2] * n[1], arm[2] * n[0] - arm[0] * n[2],
+                            arm[0] * n[1] - arm[1] * n[0]};
+    double body[3];
+    contact::to_body(r, turn, body);
+    return 1 / std::sqrt(1 + body[0] * body[0] * inverse[0] + body[1] * body[1] * inverse[1] +
+                         body[2] * body[2] * inverse[2]);
+  };
+  for (int k = first; k < last; ++k) {
+    const double n[3] = {c.normal[0][k], c.normal[1][k], c.normal[2][k]};
+    double stiffness = 0, force = 0, work = 0, arm[3] = {0, 0, 0};
+    for (int j = first; j < last; ++j) {
+      const double cosine = n[0] * c.normal[0][j] + n[1] * c.normal[1][j] + n[2] * c.normal[2][j];
+      const double s = j == k ? c.contact_radius[j] : cosine * cosine * c.contact_radius[j];
+      stiffness += s;
+      force += s * c.overlap[j];
+      work += s * c.overlap[j] * c.overlap[j];
+      for (int d = 0; d < 3; ++d)
+        arm[d] += s * c.arm[d][j];
+    }
+    for (double& component : arm)
+      component /= stiffness;
+    const double lever = impact_factor(arm, n);
+    const double common =
+        last - first > 1 ? std::min(1., force / stiffness * std::sqrt(c.contact_radius[k] / work)) : 1;
+    c.share[k] = common * lever;
+  }
+}
+
+void FixWallGranCluster::scatter_clusters(const contact::PlainWall& wall) {
+  const contact::ContactBlock& block = *block_;
+  for (int n = 0; n < bodies_in_block_; ++n) {
+    const ClusterInBlock& cluster = clusters_in_block_[n];
+    const int i = cluster.atom;
+    contact::WallHistory::Entries& entries = history_[i];
+    double force[3] = {0, 0, 0}, torque[3] = {0, 0, 0}, from[3];
+    for (int m = cluster.first; m < cluster.last; ++m)
+      for (int d = 0; d < 3; ++d) {
+        force[d] += block.force[d][m];
+        torque[d] += block.torque[d][m];
+        entries[m - cluster.first].shear[d] = block.history[d][m];
+      }
+    for (int d = 0; d < 3; ++d)
+      from[d] = atom->x[i][d] - wall.reference[d];
+    const double moment[3] = {from[1] * force[2] - from[2] * force[1], from[2] * force[0] - from[0] * force[2],
+                              from[0] * force[1] - from[1] * force[0]};
+    for (int d = 0; d < 3; ++d) {
+      atom->f[i][d] += force[d];
+      atom->torque[i][d] += torque[d];
+      local_sums_[d] -= force[d];
+      local_sums_[3 + d] -= moment[d] + torque[d];
+    }
+    local_sums_[6] += cluster.last - cluster.first;
+  }
+  bodies_in_block_ = 0;
+}
+
+} // namespace eccentra::styles

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// fix wall/gran/cluster: where bodies touch their walls, what these contacts remember, and how they share damping.
+#include "styles/walls/fix_wall_gran_cluster.h"
+
+#include "base/eigen_views.h"
+#include "contact/impact_mass.h"
+#include "contact/shared_contacts.h"
+#include "contact/wall_gaps.h"
+#include "styles/bodies/fix_cluster_bodies.h"
+
+#include "atom.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace eccentra::styles {
+
+bool FixWallGranCluster::is_plain_sphere(int i) const {
+  return !bodies_ || bodies_->shape_id(i) == FixClusterBodies::plain_sphere;
+}
+
+// Rolling models act on plain spheres alone.
+bool FixWallGranCluster::moves_like_sphere(int i) const {
+  return is_plain_sphere(i) || (!arguments_.rolling && bodies_->is_round(i));
+}
+
+void FixWallGranCluster::find_touches(int i) {
+  if (meshes_)
+    collect_mesh(i);
+  else
+    collect_primitive(i);
+}
+
+void FixWallGranCluster::collect(int i) {
+  const std::size_t first = touches_.size();
+  find_touches(i);
+  if (touches_.size() == first) {
+    history_[i].clear();
+    return;
+  }
+  renew_history(i, first);
+  if (arguments_.shared)
+    share_damping(i, first);
+}
+
+void FixWallGranCluster::renew_history(int i, std::size_t first) {
+  contact::WallHistory::Entries& entries = history_[i];
+  // As a rule the contacts are those of the last step.
+  bool same = entries.size() == touches_.size() - first;
+  for (std::size_t m = first; same && m < touches_.size(); ++m)
+    same = entries[m - first].key == touches_[m].key;
+  if (!same) {
+    next_history_.clear();
+    for (std::size_t m = first; m < touches_.size(); ++m)
+      next_history_.push_back(old_entry(i, touches_[m]));
+    entries.swap(next_history_);
+  }
+  for (std::size_t m = first; m < touches_.size(); ++m)
+    touches_[m].history = &entries[m - first];
+}
+
+// On a plane, or with one contact, all weights of SharedStiffness and ImpactMass are 1: the same formulas, much
+// shorter.
+template <class Stiffness>
+bool FixWallGranCluster::share_damping_of_one_normal(int i, std::size_t first, const Stiffness& stiffness) {
+  const Eigen::Vector3d n = touches_[first].normal;
+  for (std::size_t m = first + 1; m < touches_.size(); ++m)
+    if (touches_[m].normal != n)
+      return false;
+  double sum = 0, force = 0, work = 0;
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();
+  for (std::size_t m = first; m < touches_.size(); ++m) {
+    const contact::WallTouch& touch = touches_[m];
+    const double s = stiffness(touch);
+    sum += s;
+    force += s * touch.overlap;
+    work += s * touch.overlap * touch.overlap;
+    arm += s * touch.lever;
+  }
+  double lever = 1;
+  if (!is_plain_sphere(i)) {
+    const Eigen::Vector3d turn = base::row_major(bodies_->rotation(i)).transpose() * (arm / sum).cross(n);
+    const Eigen::Vector3d& inertia = bodies_->shapes()[bodies_->shape_id(i)].inertia_per_mass();
+    lever = 1 / std::sqrt(1 + turn.cwiseAbs2().dot(inertia.cwiseInverse()));
+  }
+  const double common = touches_.size() > first + 1 ? force / sum / std::sqrt(work) : 0;
+  for (std::size_t m = first; m < touches_.size(); ++m)
+    touches_[m].share = (common > 0 ? std::min(1., common * std::sqrt(stiffness(touches_[m]))) : 1) * lever;
+  return true;
+}
+
+void FixWallGranCluster::share_damping(int i, std::size_t first) {
+  if (touches_.size() == first)
+    return;
+  const bool plain = is_plain_sphere(i);
+  if (plain && touches_.size() == first + 1)
+    return;
+  // Within one fix the particle's material is one; walls of several materials weigh by their modulus.
+  const auto stiffness = [&](const contact::WallTouch& touch) {
+    return youngs_[atom->type[i]][touch.wall_type] * std::sqrt(touch.radius * touch.overlap);
+  };
+  if (share_damping_of_one_normal(i, first, stiffness))
+    return;
+  contact::SharedStiffness all;
+  contact::ImpactMass impact;
+  for (std::size_t m = first; m < touches_.size(); ++m) {
+    const Eigen::Vector3d& n = touches_[m].normal;
+    all.add(stiffness(touches_[m]), touches_[m].overlap, n.x(), n.y(), n.z());
+    impact.add(stiffness(touches_[m]), n, touches_[m].lever);
+  }
+  Eigen::Matrix3d inverse_inertia = Eigen::Matrix3d::Zero(); // per unit mass; spheres are always hit in the centre
+  if (!plain) {
+    const Eigen::Matrix3d rotation = base::row_major(bodies_->rotation(i));
+    inverse_inertia = rotation *
+                      bodies_->shapes()[bodies_->shape_id(i)].inertia_per_mass().cwiseInverse().asDiagonal() *
+                      rotation.transpose();
+  }
+  for (std::size_t m = first; m < touches_.size(); ++m) {
+    const Eigen::Vector3d& n = touches_[m].normal;
+    touches_[m].share =
+        all.damping_share(stiffness(touches_[m]), n.x(), n.y(), n.z()) * std::sqrt(impact.ratio(n, inverse_inertia));
+  }
+}
+
+void FixWallGranCluster::collect_primitive(int i) {
+  const contact::WallSurface& surface = *arguments_.surface;
+  const Eigen::Vector3d x = base::vector3(atom->x[i]);
+  const auto touch = [&](int sub, const Eigen::Vector3d& arm, double radius, const contact::WallPoint& point) {
+    const double overlap = radius - point.distance;
+    const Eigen::Vector3d to_wall = arm - point.distance * point.normal;
+    touches_.push_back({i, nullptr, contact::WallContactKey(sub, 0, 0), point.normal,
+                        arm - (radius - 0.5 * overlap) * point.normal, to_wall, surface.velocity_at(x + to_wall),
+                        surface.angular_velocity(), overlap, radius, 1.0, arguments_.type, -1});
+  };
+  if (is_plain_sphere(i)) {
+    const contact::WallPoint point = surface.nearest(x);
+    if (point.distance < atom->radius[i])
+      touch(0, Eigen::Vector3d::Zero(), atom->radius[i], point);
+    return;
+  }
+  if (surface.distance(x) >= atom->radius[i]) // of the bounding sphere
+    return;
+  const contact::SurfaceSpheres& spheres = bodies_->shapes().surface(bodies_->shape_id(i));
+  const Eigen::Matrix3d rotation = base::row_major(bodies_->rotation(i));
+  gaps_.resize(spheres.count);
+  contact::wall_gaps(surface, x, rotation, spheres, gaps_.data());
+  for (int k = 0; k < spheres.count; ++k)
+    if (gaps_[k] < 0.0) {
+      const Eigen::Vector3d arm = rotation * Eigen::Vector3d(spheres.x[k], spheres.y[k], spheres.z[k]);
+      touch(k, arm, spheres.r[k], surface.nearest(x + arm));
+    }
+}
+
+void FixWallGranCluster::collect_mesh(int i) {
+  const Eigen::Vector3d x = base::vector3(atom->x[i]);
+  if (is_plain_sphere(i)) {
+    meshes_->for_each_near(i, [&](int mesh, int triangle) {
+      meshes_->touch(mesh, triangle, i, 0, x, Eigen::Vector3d::Zero(), atom->radius[i], touches_);
+    });
+    return;
+  }
+  const contact::SurfaceSpheres& spheres = bodies_->shapes().surface(bodies_->shape_id(i));
+  const Eigen::Matrix3d rotation = base::row_major(bodies_->rotation(i));
+  gaps_.resize(spheres.count);
+  meshes_->for_each_near(i, [&](int mesh, int triangle) {
+    const contact::WallSurface plane = meshes_->plane(mesh, triangle);
+    if (plane.distance(x) >= atom->radius[i]) // of the bounding sphere
+      return;
+    contact::wall_gaps(plane, x, rotation, spheres, gaps_.data());
+    for (int k = 0; k < spheres.count; ++k)
+      if (gaps_[k] < 0.0)
+        meshes_->touch(mesh, triangle, i, k, x, rotation * Eigen::Vector3d(spheres.x[k], spheres.y[k], spheres.z[k]),
+                       spheres.r[k], touches_);
+  });
+}
+
+contact::WallHistoryEntry FixWallGranCluster::old_entry(int i, const contact::WallTouch& touch) const {
+  const contact::WallHistory::Entries& entries = history_[i];
+  for (const contact::WallHistoryEntry& old : entries)
+    if (old.key == touch.key)
+      return old;
+  if (meshes_)
+    for (const contact::WallHistoryEntry& old : entries)
+      if (old.key.sub() == touch.key.sub() && old.key.mesh() == touch.key.mesh() &&
+          meshes_->coplanar(touch.key.mesh(), old.key.triangle(), touch.key.triangle()))
+        return {touch.key, old.shear, old.rolling};
+  return {touch.key, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+}
+
+} // namespace eccentra::styles

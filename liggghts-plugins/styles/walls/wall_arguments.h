@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a user types after `fix ID group wall/gran/cluster`, as data.
+#pragma once
+
+#include "contact/contact_law.h"
+#include "contact/wall_surface.h"
+#include "styles/rolling/wall_rolling.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace eccentra::styles {
+
+struct WallArguments {
+  bool shared = true; ///< contacts shared (else parallel)
+  contact::DampingLaw damping = contact::DampingLaw::stock;
+  bool tangential_damping = true;
+  std::unique_ptr<WallRolling> rolling;        ///< null: rolling_friction off
+  std::optional<contact::WallSurface> surface; ///< primitive wall
+  int type = 0;                                ///< material of a primitive wall
+  std::vector<std::string> meshes;             ///< ids of fixes mesh/surface; empty for a primitive wall
+};
+
+/// Reads all arguments. Throws std::invalid_argument with one sentence that names the word, its value and the remedy.
+WallArguments read_wall_arguments(const std::vector<std::string>& arguments);
+
+} // namespace eccentra::styles

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Connections beside the one between the two ranks 0: each further rank of DEM has one, on which its rows travel.
+#pragma once
+
+#include "link/socket/address.h"
+#include "link/socket/channel.h"
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace eccentra::link {
+
+/// Why the ranks of this side cannot have `count` rank connections beside the address `main`, as a clause that explains
+/// why all rows travel over rank 0; empty if they can. Collective.
+std::string why_no_rank_connections(MPI_Comm ranks, Channel::Side side, const Address& main, std::uint32_t count);
+
+/// One end of a rank connection.
+struct RankConnection {
+  std::uint32_t rank = 0; ///< of DEM, from 1 on
+  std::unique_ptr<Channel> channel;
+  Channel::Message message; ///< the last one received
+};
+
+/// The rank connections of this rank: of rank r of DEM, if it is not 0, the one to rank r mod F of the fluid's F ranks.
+class RankConnections {
+ public:
+  /// The fluid's side: binds rank connections for ranks 1 to `count` of DEM and returns, on rank 0, their numbers
+  /// (Address::rank connection). Collective; throws Refusal on every rank if an address cannot be used.
+  std::vector<std::uint32_t> bind(MPI_Comm ranks, const Address& main, const Timeout& patience, std::uint32_t count);
+  /// The fluid's side, when DEM knows the numbers: waits until all have come. Collective; throws Refusal on every rank
+  /// if one does not, or is not who it should be. `extents` as DEM's terms said.
+  void greet(MPI_Comm ranks, bool extents);
+  /// DEM's side. Collective; throws Refusal on every rank if an address cannot be used.
+  void connect(MPI_Comm ranks, const Address& main, const Timeout& patience, const std::vector<std::uint32_t>& numbers,
+               bool extents);
+  /// As Channel::refuse, on all of this rank's. Not collective.
+  void refuse(const std::string& sentence) noexcept;
+  void close() noexcept { rank_connections_.clear(); }
+
+  std::vector<RankConnection>::iterator begin() { return rank_connections_.begin(); }
+  std::vector<RankConnection>::iterator end() { return rank_connections_.end(); }
+
+ private:
+  std::vector<RankConnection> rank_connections_;
+};
+
+} // namespace eccentra::link
