@@ -36,7 +36,4 @@ EffectList make_effects(const FluidOptions& options);
 /// "chien|..." for messages.
 std::string drag_law_names();
 
-/// One finite number; throws std::invalid_argument that names `what` and the value.
-double read_number(const std::string& word, const std::string& what);
-
 } // namespace eccentra::closures

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // fix balance/bodies: moves the planes between ranks so that each has as many bodies to compute.
+#include "base/option_reader.h"
 #include "contact/balanced_planes.h"
 #include "styles/entry/style_registry.h"
 
@@ -17,7 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -36,24 +37,19 @@ constexpr int bins = 2000;
 class FixBalanceBodies : public Fix {
  public:
   FixBalanceBodies(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {
-    for (int n = 3; n < narg; n += 2) {
-      const std::string word = arg[n];
-      if (word != "every" && word != "threshold")
-        fail("unknown keyword '" + word + "': every and threshold are known");
-      if (n + 1 == narg)
-        fail("keyword '" + word + "' needs a value");
-      char* end = nullptr;
-      const double value = std::strtod(arg[n + 1], &end);
-      const bool number = *end == '\0' && end != arg[n + 1];
-      if (word == "every") {
-        if (!number || !(value >= 1) || value != std::floor(value) || value > 2e9)
-          fail("every '" + std::string(arg[n + 1]) + "' is not a whole number of steps of at least 1");
-        every_ = static_cast<int>(value);
-      } else {
-        if (!number || !(value >= 1))
-          fail("threshold '" + std::string(arg[n + 1]) + "' is not a number of at least 1");
-        threshold_ = value;
+    try {
+      base::OptionReader reader({arg + 3, arg + narg});
+      while (reader.more()) {
+        const std::string& keyword = reader.keyword();
+        if (keyword == "every")
+          every_ = reader.count(1, "steps");
+        else if (keyword == "threshold")
+          threshold_ = reader.at_least(1);
+        else
+          reader.unknown("every, threshold");
       }
+    } catch (const std::invalid_argument& problem) {
+      fail(problem.what());
     }
     if (every_ == 0)
       fail("no interval: write `every N`, in steps");
@@ -117,8 +113,7 @@ class FixBalanceBodies : public Fix {
 };
 
 namespace {
-const styles::RegisterFix<FixBalanceBodies> registered("balance/bodies",
-                                                       "moves the planes between ranks by their load");
+const RegisterFix<FixBalanceBodies> registered("balance/bodies", "moves the planes between ranks by their load");
 }
 
 } // namespace eccentra::styles

@@ -3,6 +3,7 @@
 // fix sleep/cluster: who falls asleep and who wakes up.
 #include "styles/bodies/fix_sleep_cluster.h"
 
+#include "base/option_reader.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/entry/style_registry.h"
 
@@ -31,7 +32,7 @@ using namespace LAMMPS_NS;
 namespace {
 
 constexpr const char* style_name = "sleep/cluster";
-const styles::RegisterFix<FixSleepCluster> registered(style_name, "bodies at rest sleep until forces wake them");
+const RegisterFix<FixSleepCluster> registered(style_name, "bodies at rest sleep until forces wake them");
 
 /// A body falls asleep at this part of the imbalance that would wake it, so that it stays asleep.
 constexpr double part_to_sleep = 0.5;
@@ -40,53 +41,25 @@ double squared(const double* v) {
   return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
 }
 
-double number_of(const std::string& keyword, const std::string& word) {
-  char* end = nullptr;
-  const double value = std::strtod(word.c_str(), &end);
-  if (end == word.c_str() || *end || !std::isfinite(value))
-    throw std::invalid_argument(keyword + " '" + word + "' is not a number");
-  return value;
-}
-
-int steps_of(const std::string& keyword, const std::string& word, int least) {
-  const double value = number_of(keyword, word);
-  if (value != std::floor(value) || value < least || value > std::numeric_limits<int>::max())
-    throw std::invalid_argument(keyword + " '" + word + "' is not a whole number of steps of at least " +
-                                std::to_string(least));
-  return static_cast<int>(value);
-}
-
-double part_of(const std::string& keyword, const std::string& word) {
-  const double value = number_of(keyword, word);
-  if (!(value > 0 && value < 1))
-    throw std::invalid_argument(keyword + " '" + word + "' is not between 0 and 1");
-  return value;
-}
-
 } // namespace
 
 SleepArguments read_sleep_arguments(const std::vector<std::string>& arguments) {
   SleepArguments read;
-  for (std::size_t n = 0; n < arguments.size(); n += 2) {
-    const std::string& keyword = arguments[n];
-    const bool known = keyword == "tolerance" || keyword == "speed" || keyword == "window" || keyword == "every" ||
-                       keyword == "recheck";
-    if (!known)
-      throw std::invalid_argument("unknown keyword '" + keyword +
-                                  "': tolerance, speed, window, every and recheck are known");
-    if (n + 1 == arguments.size())
-      throw std::invalid_argument("keyword '" + keyword + "' needs a value");
-    const std::string& value = arguments[n + 1];
+  base::OptionReader reader(arguments);
+  while (reader.more()) {
+    const std::string& keyword = reader.keyword();
     if (keyword == "tolerance")
-      read.tolerance = part_of(keyword, value);
+      read.tolerance = reader.between(0, 1);
     else if (keyword == "speed")
-      read.speed = part_of(keyword, value);
+      read.speed = reader.between(0, 1);
     else if (keyword == "window")
-      read.window = steps_of(keyword, value, 1);
+      read.window = reader.count(1, "steps");
     else if (keyword == "every")
-      read.every = steps_of(keyword, value, 1);
+      read.every = reader.count(1, "steps");
+    else if (keyword == "recheck")
+      read.recheck = reader.count(0, "steps");
     else
-      read.recheck = steps_of(keyword, value, 0);
+      reader.unknown("tolerance, speed, window, every, recheck");
   }
   return read;
 }

@@ -3,6 +3,8 @@
 // Implements fix fluid/uniform.
 #include "styles/fluid/fix_fluid_uniform.h"
 
+#include "base/option_reader.h"
+#include "base/refusal.h"
 #include "closures/fluid_options.h"
 #include "styles/entry/style_registry.h"
 #include "styles/fluid/fix_fluid_force.h"
@@ -25,8 +27,7 @@ using namespace LAMMPS_NS;
 namespace eccentra::styles {
 
 namespace {
-const styles::RegisterFix<FixFluidUniform> kRecord("fluid/uniform",
-                                                   "a prescribed flow for fix fluid/force, no solver needed");
+const RegisterFix<FixFluidUniform> kRecord("fluid/uniform", "a prescribed flow for fix fluid/force, no solver needed");
 }
 
 const FixFluidUniform::Word FixFluidUniform::kWords[] = {{"velocity", kVelocityAt, 3},
@@ -47,37 +48,36 @@ FixFluidUniform::FixFluidUniform(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, n
 
 void FixFluidUniform::read(const std::vector<std::string>& arguments) {
   bool has_velocity = false;
-  for (std::size_t next = 0; next < arguments.size();) {
-    const std::string& keyword = arguments[next++];
+  base::OptionReader reader(arguments);
+  while (reader.more()) {
+    const std::string& keyword = reader.keyword();
     const Word* word =
         std::find_if(std::begin(kWords), std::end(kWords), [&](const Word& known) { return keyword == known.keyword; });
     if (word == std::end(kWords)) {
       std::string names;
       for (const Word& known : kWords)
         names += std::string(names.empty() ? "" : ", ") + known.keyword;
-      throw std::invalid_argument("unknown word '" + keyword + "': known are " + names);
+      reader.unknown(names);
     }
     has_velocity |= word->first == kVelocityAt;
-    if (arguments.size() - next < std::size_t(word->count))
-      throw std::invalid_argument("keyword '" + keyword + "' has " + std::to_string(arguments.size() - next) +
-                                  " values: it needs " + std::to_string(word->count));
     for (int k = 0; k < word->count; ++k) {
       Value& value = values_[word->first + k];
-      const std::string& text = arguments[next++];
-      if (text.rfind("v_", 0) == 0) {
-        value.variable = text.substr(2);
+      const std::string expected = fmt::format("{} numbers or variables (v_name)", word->count);
+      if (reader.more() && reader.peek().rfind("v_", 0) == 0) {
+        value.variable = reader.value(expected).substr(2);
         variables_ = true;
       } else {
-        value.number = closures::read_number(text, "keyword '" + keyword + "'");
+        value.number = reader.number(expected);
       }
     }
   }
   if (!has_velocity)
-    throw std::invalid_argument("the word 'velocity' is missing: add velocity UX UY UZ");
+    base::refuse("keyword 'velocity' is missing; add velocity UX UY UZ");
   const Value& fraction = values_[kFractionAt];
   if (fraction.variable.empty() && !(fraction.number > 0.0 && fraction.number <= 1.0))
-    throw std::invalid_argument("'fraction' has " + std::to_string(fraction.number) +
-                                ": the fluid's volume fraction must be greater than 0 and at most 1");
+    base::refuse("keyword 'fraction': '{}' is no volume fraction of a fluid; expected a number greater than 0 and at "
+                 "most 1",
+                 fraction.number);
 }
 
 int FixFluidUniform::setmask() {

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How bad input is refused: one sentence that names the keyword, its value and the remedy.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace eccentra::base {
+
+/// Throws std::invalid_argument. The sentence has the form `what: 'value' is not ...; expected ...`; whoever knows the
+/// file or the fix puts its name in front.
+template <class... Values> [[noreturn]] void refuse(fmt::format_string<Values...> sentence, Values&&... values) {
+  throw std::invalid_argument(fmt::format(sentence, std::forward<Values>(values)...));
+}
+
+} // namespace eccentra::base
