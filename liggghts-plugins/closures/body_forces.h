@@ -15,7 +15,7 @@ struct BuoyancyField {
   static constexpr unsigned kNeeds = 0;
   double density;
   /// -rho_f g: the hydrostatic part of -grad p.
-  double operator()(const HalfStep& kick, int, int k) const { return -density * kick.gravity[k]; }
+  double operator()(const HalfStep& half_step, int, int k) const { return -density * half_step.gravity[k]; }
 };
 
 struct PressureField {
@@ -23,7 +23,9 @@ struct PressureField {
   static constexpr unsigned kNeeds = link::kPressureGradient;
   double density;
   /// -grad p_rgh; the fluid has its opposite in alpha grad p already (model A).
-  double operator()(const HalfStep& kick, int i, int k) const { return -kick.samples.pressure_gradient[i][k]; }
+  double operator()(const HalfStep& half_step, int i, int k) const {
+    return -half_step.samples.pressure_gradient[i][k];
+  }
 };
 
 struct StressField {
@@ -31,7 +33,7 @@ struct StressField {
   static constexpr unsigned kNeeds = link::kStressDivergence;
   double density;
   /// div tau; with it, -grad p_rgh is the whole stress of model A on the particle.
-  double operator()(const HalfStep& kick, int i, int k) const { return kick.samples.stress_divergence[i][k]; }
+  double operator()(const HalfStep& half_step, int i, int k) const { return half_step.samples.stress_divergence[i][k]; }
 };
 
 template <class Field> class BodyForce : public Effect {
@@ -40,16 +42,16 @@ template <class Field> class BodyForce : public Effect {
 
   const char* name() const override { return Field::kName; }
   unsigned needs() const override { return Field::kNeeds; }
-  void apply(const HalfStep& kick) override {
+  void apply(const HalfStep& half_step) override {
     double sum[3] = {0.0, 0.0, 0.0};
-    for (int i = 0; i < kick.count; ++i) {
-      if (!(kick.mask[i] & kick.group))
+    for (int i = 0; i < half_step.count; ++i) {
+      if (!(half_step.mask[i] & half_step.group))
         continue;
-      const double volume = sphere_volume(kick.radius[i]);
-      const double held = kick.mask[i] & kick.frozen ? 0.0 : 1.0;
+      const double volume = sphere_volume(half_step.radius[i]);
+      const double held = half_step.mask[i] & half_step.frozen ? 0.0 : 1.0;
       for (int k = 0; k < 3; ++k) {
-        const double f = volume * field_(kick, i, k);
-        kick.force[i][k] += held * f;
+        const double f = volume * field_(half_step, i, k);
+        half_step.force[i][k] += held * f;
         sum[k] += f;
       }
     }

@@ -34,22 +34,22 @@ template <class Stress, class Law> class DragEffect : public Effect {
   }
 
   std::vector<Validity> validity() const override { return {{kReynolds, Law::kLowestRe, Law::kHighestRe}}; }
-  void apply(const HalfStep& kick) override {
+  void apply(const HalfStep& half_step) override {
     double sum[3] = {0.0, 0.0, 0.0};
     // Copies: a force that is written could be one of the members, as far as the compiler knows.
     const Stress stress = stress_;
     const double density = density_;
     const Law* laws = laws_.data();
-    for (int i = 0; i < kick.count; ++i) {
-      if (!(kick.mask[i] & kick.group))
+    for (int i = 0; i < half_step.count; ++i) {
+      if (!(half_step.mask[i] & half_step.group))
         continue;
-      const double d = 2.0 * kick.radius[i];
-      const double compliance = kick.compliance(i);
+      const double d = 2.0 * half_step.radius[i];
+      const double compliance = half_step.compliance(i);
       double slip[3], free[3], f[3];
       double slip2 = 0.0, free2 = 0.0;
       for (int k = 0; k < 3; ++k) {
-        slip[k] = kick.samples.velocity[i][k] - kick.velocity[i][k];
-        free[k] = slip[k] - compliance * kick.force[i][k];
+        slip[k] = half_step.samples.velocity[i][k] - half_step.velocity[i][k];
+        free[k] = slip[k] - compliance * half_step.force[i][k];
         slip2 += slip[k] * slip[k];
         free2 += free[k] * free[k];
       }
@@ -57,10 +57,10 @@ template <class Stress, class Law> class DragEffect : public Effect {
         continue;
       const double free_speed = std::sqrt(free2);
       DragPlace place;
-      place.fraction = std::clamp(kick.samples.fraction[i], kDragFractionFloor, 1.0);
+      place.fraction = std::clamp(half_step.samples.fraction[i], kDragFractionFloor, 1.0);
       if constexpr (Law::kOriented)
         place.crosswise = shapes_->crosswise_sphericity(i, free);
-      const auto law = laws[kick.kind[i]].in(place);
+      const auto law = laws[half_step.kind[i]].in(place);
       const Resistance<Stress, std::decay_t<decltype(law)>> drag{stress, law, kPi / 8.0 * d * d, 1.0 / d, density};
       const ImplicitSlip step = implicit_slip(drag, free_speed, compliance, std::sqrt(slip2));
       // What is exchanged is the force that was really given, so the fluid receives exactly what the particle lost. Its
@@ -70,11 +70,11 @@ template <class Stress, class Law> class DragEffect : public Effect {
         f[k] = coefficient * free[k];
         sum[k] += f[k];
       }
-      kick.exchange(i, f, coefficient);
-      if (kick.mask[i] & kick.frozen)
+      half_step.exchange(i, f, coefficient);
+      if (half_step.mask[i] & half_step.frozen)
         continue;
       for (int k = 0; k < 3; ++k)
-        kick.force[i][k] = step.speed == 0.0 ? slip[k] / compliance : kick.force[i][k] + f[k];
+        half_step.force[i][k] = step.speed == 0.0 ? slip[k] / compliance : half_step.force[i][k] + f[k];
     }
     std::copy(sum, sum + 3, total_);
   }

@@ -77,7 +77,7 @@ class Effect {
   virtual unsigned needs() const = 0;
   /// Prepares what depends on shapes only; called at set-up.
   virtual void prepare(const ShapeCatalogue&) {}
-  virtual void apply(const HalfStep& kick) = 0;
+  virtual void apply(const HalfStep& half_step) = 0;
   /// True if it acts on spins (HalfStep::torque), false if on velocities (HalfStep::force).
   virtual bool is_torque() const { return false; }
   virtual std::vector<Validity> validity() const { return {}; }

@@ -68,34 +68,34 @@ std::vector<LogHistogram*> EffectScreen::histograms() {
   return all;
 }
 
-void EffectScreen::apply(const HalfStep& kick, const EffectList& effects, const Rheology& fluid) {
-  const std::size_t count = kick.count;
+void EffectScreen::apply(const HalfStep& half_step, const EffectList& effects, const Rheology& fluid) {
+  const std::size_t count = half_step.count;
   magnitude_.assign(effects.size() * count, 0.0);
   torque_peers_.resize(count);
-  for (int i = 0; i < kick.count; ++i)
-    torque_peers_[i] = base::norm(kick.torque[i]);
+  for (int i = 0; i < half_step.count; ++i)
+    torque_peers_[i] = base::norm(half_step.torque[i]);
   for (std::size_t e = 0; e < effects.size(); ++e) {
-    copy_rows(kick.force, kick.count, before_force_);
-    copy_rows(kick.torque, kick.count, before_torque_);
-    effects[e]->apply(kick);
-    double** const rows = effects[e]->is_torque() ? kick.torque : kick.force;
+    copy_rows(half_step.force, half_step.count, before_force_);
+    copy_rows(half_step.torque, half_step.count, before_torque_);
+    effects[e]->apply(half_step);
+    double** const rows = effects[e]->is_torque() ? half_step.torque : half_step.force;
     const std::vector<double>& before = effects[e]->is_torque() ? before_torque_ : before_force_;
     for (std::size_t i = 0; i < count; ++i)
       magnitude_[e * count + i] = change_of_row(rows[i], &before[3 * i]);
   }
   const auto drag = std::find_if(effects.begin(), effects.end(), [](const auto& effect) { return is_drag(*effect); });
-  const double g = base::norm(kick.gravity);
+  const double g = base::norm(half_step.gravity);
   for (std::size_t i = 0; i < count; ++i) {
-    if (!(kick.mask[i] & kick.group) || (kick.mask[i] & kick.frozen))
+    if (!(half_step.mask[i] & half_step.group) || (half_step.mask[i] & half_step.frozen))
       continue;
-    const double weight = std::abs(kick.mass[i] - fluid.density * sphere_volume(kick.radius[i])) * g;
+    const double weight = std::abs(half_step.mass[i] - fluid.density * sphere_volume(half_step.radius[i])) * g;
     const double resisted = drag == effects.end() ? 0.0 : magnitude_[(drag - effects.begin()) * count + i];
     for (std::size_t e = 0; e < effects.size(); ++e) {
       const double size = magnitude_[e * count + i];
       Measure& m = measures_[e];
       if (effects[e]->is_torque()) {
-        m.to_weight.add(ratio(size, weight * kick.radius[i]));
-        m.to_drag.add(ratio(size, resisted * kick.radius[i]));
+        m.to_weight.add(ratio(size, weight * half_step.radius[i]));
+        m.to_drag.add(ratio(size, resisted * half_step.radius[i]));
         m.to_reference.add(ratio(size, torque_peers_[i]));
       } else {
         m.to_weight.add(ratio(size, weight));
@@ -103,7 +103,7 @@ void EffectScreen::apply(const HalfStep& kick, const EffectList& effects, const 
         m.to_reference.add(ratio(size, std::max(weight, resisted)));
       }
     }
-    const auto numbers = particle_numbers(kick, static_cast<int>(i), fluid);
+    const auto numbers = particle_numbers(half_step, static_cast<int>(i), fluid);
     for (int n = 0; n < kNumbers; ++n)
       numbers_[n].add(numbers[n]);
   }

@@ -28,7 +28,7 @@ class EffectScreen {
   bool measuring() const { return measuring_; }
   bool sample_now() const { return measuring_ && done_ % stride_ == 0; }
   /// Applies all effects like a plain half step, and keeps what each of them did.
-  void apply(const HalfStep& kick, const EffectList& effects, const Rheology& fluid);
+  void apply(const HalfStep& half_step, const EffectList& effects, const Rheology& fluid);
   /// Counts a step; true when a measurement has just ended or is due to begin: ask measuring().
   bool step();
   /// Begins a measurement.

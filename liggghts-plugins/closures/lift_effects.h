@@ -17,25 +17,25 @@ class Lift : public Effect {
   unsigned needs() const override { return link::kVelocity | link::kVorticity; }
 
  protected:
-  template <class Force> void for_each(const HalfStep& kick, Force&& force) {
+  template <class Force> void for_each(const HalfStep& half_step, Force&& force) {
     double sum[3] = {0.0, 0.0, 0.0};
-    for (int i = 0; i < kick.count; ++i) {
-      if (!(kick.mask[i] & kick.group))
+    for (int i = 0; i < half_step.count; ++i) {
+      if (!(half_step.mask[i] & half_step.group))
         continue;
       double slip[3], f[3];
       for (int k = 0; k < 3; ++k)
-        slip[k] = kick.samples.velocity[i][k] - kick.velocity[i][k];
+        slip[k] = half_step.samples.velocity[i][k] - half_step.velocity[i][k];
       const double speed = base::norm(slip);
       if (!(speed > 0.0))
         continue;
-      const double d = 2.0 * kick.radius[i];
+      const double d = 2.0 * half_step.radius[i];
       // The viscosity behind Re_HB, so that all Reynolds numbers of a particle speak of one fluid.
       const double viscosity = fluid_.newtonian() ? fluid_.consistency : particle_viscosity(fluid_, speed, d);
       force(i, viscosity, d, slip, f);
-      kick.exchange(i, f, 0.0);
-      const double held = kick.mask[i] & kick.frozen ? 0.0 : 1.0;
+      half_step.exchange(i, f, 0.0);
+      const double held = half_step.mask[i] & half_step.frozen ? 0.0 : 1.0;
       for (int k = 0; k < 3; ++k) {
-        kick.force[i][k] += held * f[k];
+        half_step.force[i][k] += held * f[k];
         sum[k] += f[k];
       }
     }
@@ -51,9 +51,9 @@ class ShearLift : public Lift {
   std::vector<Validity> validity() const override {
     return {{kReynolds, 0.0, Mei::kHighestRe}, {kShearParameter, Mei::kLowestBeta, Mei::kHighestBeta}};
   }
-  void apply(const HalfStep& kick) override {
-    for_each(kick, [&](int i, double viscosity, double d, const double* slip, double* f) {
-      shear_lift_force(fluid_.density, viscosity, d, slip, kick.samples.vorticity[i], f);
+  void apply(const HalfStep& half_step) override {
+    for_each(half_step, [&](int i, double viscosity, double d, const double* slip, double* f) {
+      shear_lift_force(fluid_.density, viscosity, d, slip, half_step.samples.vorticity[i], f);
     });
   }
 };
@@ -68,11 +68,11 @@ class RotationalLift : public Lift {
     return {{kReynolds, OesterleBuiDinh::kLowestRe, OesterleBuiDinh::kHighestRe},
             {kSpinParameter, OesterleBuiDinh::kLowestSpin, OesterleBuiDinh::kHighestSpin}};
   }
-  void apply(const HalfStep& kick) override {
-    for_each(kick, [&](int i, double viscosity, double d, const double* slip, double* f) {
+  void apply(const HalfStep& half_step) override {
+    for_each(half_step, [&](int i, double viscosity, double d, const double* slip, double* f) {
       double spin[3];
       for (int k = 0; k < 3; ++k)
-        spin[k] = 0.5 * kick.samples.vorticity[i][k] - kick.spin[i][k];
+        spin[k] = 0.5 * half_step.samples.vorticity[i][k] - half_step.spin[i][k];
       rotational_lift_force(fluid_.density, viscosity, d, slip, spin, f);
     });
   }

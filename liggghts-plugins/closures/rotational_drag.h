@@ -28,24 +28,25 @@ template <class Stress> class RotationalDrag : public Effect {
 
   bool is_torque() const override { return true; }
   std::vector<Validity> validity() const override { return {{kSpinReynolds, 0.0, Dennis::kHighestRe}}; }
-  void apply(const HalfStep& kick) override {
+  void apply(const HalfStep& half_step) override {
     double sum[3] = {0.0, 0.0, 0.0};
-    for (int i = 0; i < kick.count; ++i) {
-      if (!(kick.mask[i] & kick.group))
+    for (int i = 0; i < half_step.count; ++i) {
+      if (!(half_step.mask[i] & half_step.group))
         continue;
-      const double d = 2.0 * kick.radius[i];
-      const double compliance = kick.compliance(i) / (gyration_[kick.kind[i]] * kick.radius[i] * kick.radius[i]);
+      const double d = 2.0 * half_step.radius[i];
+      const double compliance =
+          half_step.compliance(i) / (gyration_[half_step.kind[i]] * half_step.radius[i] * half_step.radius[i]);
       double slip_rate = 0.0;
       if (!newtonian_) {
         double slip[3];
         for (int k = 0; k < 3; ++k)
-          slip[k] = kick.samples.velocity[i][k] - kick.velocity[i][k];
+          slip[k] = half_step.samples.velocity[i][k] - half_step.velocity[i][k];
         slip_rate = base::norm(slip) / d;
       }
       double spin[3], free[3];
       for (int k = 0; k < 3; ++k) {
-        spin[k] = 0.5 * kick.samples.vorticity[i][k] - kick.spin[i][k];
-        free[k] = spin[k] - compliance * kick.torque[i][k];
+        spin[k] = 0.5 * half_step.samples.vorticity[i][k] - half_step.spin[i][k];
+        free[k] = spin[k] - compliance * half_step.torque[i][k];
       }
       const double free_spin = base::norm(free);
       if (!(free_spin > 0.0))
@@ -54,12 +55,12 @@ template <class Stress> class RotationalDrag : public Effect {
           {stress_, slip_rate}, Dennis(), Dennis::kAreaPart * d * d * d, 1.0, density_ * d * d};
       const ImplicitSlip step = implicit_slip(drag, free_spin, compliance, base::norm(spin));
       const double coefficient = step.resistance / free_spin;
-      const bool held = kick.mask[i] & kick.frozen;
+      const bool held = half_step.mask[i] & half_step.frozen;
       for (int k = 0; k < 3; ++k) {
         const double t = coefficient * free[k];
         sum[k] += t;
         if (!held)
-          kick.torque[i][k] = step.speed == 0.0 ? spin[k] / compliance : kick.torque[i][k] + t;
+          half_step.torque[i][k] = step.speed == 0.0 ? spin[k] / compliance : half_step.torque[i][k] + t;
       }
     }
     std::copy(sum, sum + 3, total_);

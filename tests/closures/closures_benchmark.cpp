@@ -40,7 +40,7 @@ void run_effects(benchmark::State& state, const std::string& arguments) {
   for (auto _ : state) {
     particles.clear_forces();
     for (const auto& effect : effects)
-      effect->apply(particles.kick());
+      effect->apply(particles.half_step());
     benchmark::ClobberMemory();
   }
   state.counters["ns_per_particle"] = benchmark::Counter(1e-9 * double(kParticles) * double(state.iterations()),
@@ -51,7 +51,7 @@ void run_hand_written(benchmark::State& state) {
   ParticleArrays particles(kParticles);
   for (auto _ : state) {
     particles.clear_forces();
-    eccentra::test::hand_written_drag(particles.kick(), {1.0, 0.28, 0.65, 1000.0});
+    eccentra::test::hand_written_drag(particles.half_step(), {1.0, 0.28, 0.65, 1000.0});
     benchmark::ClobberMemory();
   }
   state.counters["ns_per_particle"] = benchmark::Counter(1e-9 * double(kParticles) * double(state.iterations()),

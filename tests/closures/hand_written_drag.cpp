@@ -7,26 +7,27 @@
 
 namespace eccentra::test {
 
-double hand_written_drag(const closures::HalfStep& kick, const closures::Rheology& fluid) {
+double hand_written_drag(const closures::HalfStep& half_step, const closures::Rheology& fluid) {
   const double plateau = 67.289 * std::exp(-5.03);
   const double yield = 7.0 * closures::kPi / 24.0 * fluid.yield_stress;
   double sum[3] = {0.0, 0.0, 0.0};
-  for (int i = 0; i < kick.count; ++i) {
-    if (!(kick.mask[i] & kick.group))
+  for (int i = 0; i < half_step.count; ++i) {
+    if (!(half_step.mask[i] & half_step.group))
       continue;
-    const double h =
-        (kick.mask[i] & kick.integrated) && !(kick.mask[i] & kick.frozen) ? kick.interval / kick.mass[i] : 0.0;
-    const double* v = kick.velocity[i];
-    double* f = kick.force[i];
-    const double* u = kick.samples.velocity[i];
+    const double h = (half_step.mask[i] & half_step.integrated) && !(half_step.mask[i] & half_step.frozen)
+                         ? half_step.interval / half_step.mass[i]
+                         : 0.0;
+    const double* v = half_step.velocity[i];
+    double* f = half_step.force[i];
+    const double* u = half_step.samples.velocity[i];
     const double sx = u[0] - v[0], sy = u[1] - v[1], sz = u[2] - v[2];
     const double fx = sx - h * f[0], fy = sy - h * f[1], fz = sz - h * f[2];
     const double free2 = fx * fx + fy * fy + fz * fz;
     if (free2 == 0.0)
       continue;
     const double free = std::sqrt(free2);
-    const double d = 2.0 * kick.radius[i];
-    double fraction = kick.samples.fraction[i];
+    const double d = 2.0 * half_step.radius[i];
+    double fraction = half_step.samples.fraction[i];
     fraction = fraction < 0.3 ? 0.3 : fraction > 1.0 ? 1.0 : fraction;
     const double inverse_d = 1.0 / d;
     const double area = closures::kPi / 8.0 * d * d * (fraction < 1.0 ? std::pow(fraction, -1.65) : 1.0);
@@ -55,18 +56,18 @@ double hand_written_drag(const closures::HalfStep& kick, const closures::Rheolog
     }
     const double beta = drag / free;
     const double dx = beta * fx, dy = beta * fy, dz = beta * fz;
-    kick.impulse[i][0] += dx * kick.interval;
-    kick.impulse[i][1] += dy * kick.interval;
-    kick.impulse[i][2] += dz * kick.interval;
-    kick.drag_coefficient[i] += beta * kick.interval;
-    kick.last[i][0] += dx;
-    kick.last[i][1] += dy;
-    kick.last[i][2] += dz;
-    kick.last[i][3] += beta;
+    half_step.impulse[i][0] += dx * half_step.interval;
+    half_step.impulse[i][1] += dy * half_step.interval;
+    half_step.impulse[i][2] += dz * half_step.interval;
+    half_step.drag_coefficient[i] += beta * half_step.interval;
+    half_step.last[i][0] += dx;
+    half_step.last[i][1] += dy;
+    half_step.last[i][2] += dz;
+    half_step.last[i][3] += beta;
     sum[0] += dx;
     sum[1] += dy;
     sum[2] += dz;
-    if (kick.mask[i] & kick.frozen)
+    if (half_step.mask[i] & half_step.frozen)
       continue;
     if (q == 0.0) {
       f[0] = sx / h;

@@ -10,6 +10,6 @@ namespace eccentra::test {
 
 /// Implicit Chien drag on spheres in a Herschel-Bulkley fluid; adds to forces, impulse and coefficient as DragEffect
 /// does. Returns the sum of the forces along z.
-double hand_written_drag(const closures::HalfStep& kick, const closures::Rheology& fluid);
+double hand_written_drag(const closures::HalfStep& half_step, const closures::Rheology& fluid);
 
 } // namespace eccentra::test

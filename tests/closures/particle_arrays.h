@@ -61,7 +61,7 @@ class ParticleArrays : public closures::ShapeCatalogue {
     half_step_.last = reinterpret_cast<double(*)[4]>(last_.data());
   }
 
-  const closures::HalfStep& kick() const { return half_step_; }
+  const closures::HalfStep& half_step() const { return half_step_; }
   const std::vector<double>& forces() const { return force_; }
   void clear_forces() {
     std::fill(force_.begin(), force_.end(), 0.0);

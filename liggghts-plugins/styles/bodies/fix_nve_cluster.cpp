@@ -85,7 +85,7 @@ class FixNveCluster : public Fix {
       if (!(atom->mask[i] & groupbit) || (sleep_ && sleep_->asleep(i)))
         continue;
       const double per_mass = 1 / atom->rmass[i];
-      kick(i, per_mass);
+      half_step(i, per_mass);
       for (int k = 0; k < 3; ++k)
         atom->x[i][k] += dt_ * atom->v[i][k];
       if (bodies_->shape_id(i) != FixClusterBodies::plain_sphere)
@@ -99,7 +99,7 @@ class FixNveCluster : public Fix {
       if (!(atom->mask[i] & groupbit) || (sleep_ && sleep_->asleep(i)))
         continue;
       const double per_mass = 1 / atom->rmass[i];
-      kick(i, per_mass);
+      half_step(i, per_mass);
       const int shape = bodies_->shape_id(i);
       if (shape == FixClusterBodies::plain_sphere)
         continue;
@@ -125,7 +125,7 @@ class FixNveCluster : public Fix {
 
  private:
   /// Half a step of velocity, and of angular momentum (plain spheres: angular velocity).
-  void kick(int i, double per_mass) {
+  void half_step(int i, double per_mass) {
     const double c = half_step_ * per_mass;
     double* v = atom->v[i];
     const double* f = atom->f[i];

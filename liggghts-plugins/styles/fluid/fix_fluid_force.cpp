@@ -225,52 +225,52 @@ void FixFluidForce::pre_final_integrate() {
 
 closures::HalfStep FixFluidForce::make_half_step(double interval) {
   geometry_.refresh();
-  closures::HalfStep kick;
-  kick.count = atom->nlocal;
-  kick.interval = interval;
-  kick.velocity = atom->v;
-  kick.force = atom->f;
-  kick.spin = atom->omega;
-  kick.torque = atom->torque;
-  kick.mass = atom->rmass;
-  kick.radius = geometry_.radius();
-  kick.kind = geometry_.kind();
-  kick.mask = atom->mask;
-  kick.group = groupbit;
+  closures::HalfStep half_step;
+  half_step.count = atom->nlocal;
+  half_step.interval = interval;
+  half_step.velocity = atom->v;
+  half_step.force = atom->f;
+  half_step.spin = atom->omega;
+  half_step.torque = atom->torque;
+  half_step.mass = atom->rmass;
+  half_step.radius = geometry_.radius();
+  half_step.kind = geometry_.kind();
+  half_step.mask = atom->mask;
+  half_step.group = groupbit;
   for (int i = 0; i < modify->nfix; ++i) {
     Fix* fix = modify->fix[i];
     if (fix->time_integrate)
-      kick.integrated |= fix->groupbit;
+      half_step.integrated |= fix->groupbit;
     if (!std::strcmp(fix->style, "freeze"))
-      kick.frozen |= fix->groupbit;
+      half_step.frozen |= fix->groupbit;
     if (!std::strcmp(fix->style, "gravity"))
-      static_cast<FixGravity*>(fix)->get_gravity(kick.gravity);
+      static_cast<FixGravity*>(fix)->get_gravity(half_step.gravity);
   }
-  kick.samples = sample_arrays();
-  kick.impulse = reinterpret_cast<double(*)[3]>(arrays_.data(kImpulse));
-  kick.drag_coefficient = arrays_.data(kCoefficient);
-  kick.last = reinterpret_cast<double(*)[4]>(arrays_.data(kLast));
-  return kick;
+  half_step.samples = sample_arrays();
+  half_step.impulse = reinterpret_cast<double(*)[3]>(arrays_.data(kImpulse));
+  half_step.drag_coefficient = arrays_.data(kCoefficient);
+  half_step.last = reinterpret_cast<double(*)[4]>(arrays_.data(kLast));
+  return half_step;
 }
 
 void FixFluidForce::apply(double interval) {
-  const closures::HalfStep kick = make_half_step(interval);
-  std::fill_n(arrays_.data(kLast), (kDimension + 1) * std::size_t(kick.count), 0.0);
+  const closures::HalfStep half_step = make_half_step(interval);
+  std::fill_n(arrays_.data(kLast), (kDimension + 1) * std::size_t(half_step.count), 0.0);
   elapsed_ += interval;
   if (screen_ && screen_->sample_now()) {
-    screen_->apply(kick, effects_, options_.rheology);
+    screen_->apply(half_step, effects_, options_.rheology);
     return;
   }
   double before = MPI_Wtime();
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     if (!acting_[e])
       continue;
-    effects_[e]->apply(kick);
+    effects_[e]->apply(half_step);
     const double after = MPI_Wtime();
     seconds_[e] += after - before;
     before = after;
   }
-  visits_ += kick.count;
+  visits_ += half_step.count;
 }
 
 void FixFluidForce::grow_arrays(int rows) {

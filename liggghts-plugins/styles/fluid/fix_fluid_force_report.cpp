@@ -107,16 +107,16 @@ void FixFluidForce::post_run() {
 
 // Towards small numbers every closure has a limit that it keeps; only above its range is it extrapolated.
 void FixFluidForce::report_ranges() {
-  const closures::HalfStep kick = make_half_step(update->dt);
+  const closures::HalfStep half_step = make_half_step(update->dt);
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     if (!acting_[e])
       continue;
     for (const closures::Validity& validity : effects_[e]->validity()) {
       LAMMPS_NS::bigint outside[2] = {0, 0};
-      for (int i = 0; i < kick.count; ++i) {
-        if (!(kick.mask[i] & groupbit))
+      for (int i = 0; i < half_step.count; ++i) {
+        if (!(half_step.mask[i] & groupbit))
           continue;
-        outside[0] += closures::particle_numbers(kick, i, options_.rheology)[validity.number] > validity.high;
+        outside[0] += closures::particle_numbers(half_step, i, options_.rheology)[validity.number] > validity.high;
         ++outside[1];
       }
       MPI_Allreduce(MPI_IN_PLACE, outside, 2, MPI_LMP_BIGINT, MPI_SUM, world);
