@@ -6,8 +6,8 @@
 namespace eccentra::link {
 
 /// Wall-clock seconds that this process has spent in calls of MPI that wait, since its start. Only ever grows. Counted
-/// by liggghts-plugins/styles/entry/mpi_clock.cpp, which stands in front of the MPI library wherever libeccentra is
-/// loaded.
+/// by liggghts-plugins/tools/mpi_clock.cpp, which stands in front of the MPI library in eccentra-dem and annulusFoam;
+/// in other programs it stays 0.
 double& waiting_seconds();
 
 } // namespace eccentra::link

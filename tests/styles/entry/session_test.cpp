@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <dlfcn.h>
+
+#include <string>
+
 using eccentra::test::LiggghtsSession;
 
 TEST(Session, SphereFallsFreely) {
@@ -35,5 +39,14 @@ TEST(Session, SphereFallsFreely) {
   if (i >= 0) {
     const double t = 1000 * 1e-5;
     EXPECT_NEAR(session.atom().v[i][2], -9.81 * t, 1e-12);
+  }
+}
+
+// The clock of the ranks belongs to our own programs: whoever loads libeccentra keeps the MPI library's functions.
+TEST(Session, MpiCallsStayTheLibrarys) {
+  for (void* call : {dlsym(RTLD_DEFAULT, "MPI_Wait"), dlsym(RTLD_DEFAULT, "MPI_Allreduce")}) {
+    Dl_info where;
+    ASSERT_NE(dladdr(call, &where), 0);
+    EXPECT_NE(std::string(where.dli_fname).find("libmpi"), std::string::npos) << where.dli_fname;
   }
 }

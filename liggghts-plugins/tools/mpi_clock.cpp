@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The calls of MPI that wait for other ranks, timed through MPI's own profiling interface: both hosts wait in many
+// The calls of MPI that wait for other ranks, timed through MPI's own profiling interface: both solvers wait in many
 // places of their own, and only what a rank computes besides tells whether the load is even.
 #include "link/waiting.h"
 
