@@ -68,9 +68,10 @@ class Figures:
         """A sphere whose rolling friction stands for a shape has the drag of that shape."""
         return Point(level, inclination, velocity, rpm, SPHERICITY[body])
 
-    def levels_needed(self):
-        every = {self.s1, self.s6, *self.reference.values(), *self.mu["cube"], *self.mu["disk"]}
-        return every | {self.of["cube"][n] for n in ("C8", "C27")} | {self.of["disk"][n] for n in ("D7", "D19")}
+    def levels_needed(self, numbers):
+        """Whose time step some figures ask for."""
+        beds = {self.s1, *self.reference.values()} if 9 in numbers else set()
+        return beds | {p.level for number in numbers if number != 9 for line in self.points(number).values() for _, p in line}
 
     def points(self, number):
         """{series name: [(x, Point)]}."""

@@ -51,7 +51,10 @@ class Value:
     def words(self):
         if self.failed:
             return self.failed if self.failed == NOT_RUN else "failed"
-        text = f"> {100 * self.value:.0f} %" + (", no higher filling run" if self.partial else "") if self.bound else f"{100 * self.value:.2g} +- {100 * self.error:.1g} %"
+        if self.bound:
+            text = f"> {100 * self.value:.0f} %" + (", no higher filling run" if self.partial else "")
+        else:
+            text = f"{100 * self.value:.2g} +- {100 * self.error:.1g} %"
         return text + (" (slides back)" if self.slides else "")
 
 
@@ -127,7 +130,8 @@ class Ladders:
                     sentences.append(f"{point.name()}, {100 * rung:g} %: {failed[point]}")
                 if not good:
                     failed.setdefault(point, NOT_RUN)
-                    climbing.remove(point)
+                    if not self.store.plan:
+                        climbing.remove(point)
                     continue
                 flux, error = measures.mean_and_error([r["mean"]["flux"][0] for r in good])
                 if len(good) == 1:

@@ -6,11 +6,10 @@ import json
 import math
 import pathlib
 import re
-import subprocess
 
-from . import runs
+from . import programs, runs
+from .programs import CASES, digest_of, run
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SAFETY = 0.3  # of the critical time step, the default of fix timestep/limit
 DISK_RATIO = 0.4476  # radius over that of the outer ring, as in disk 48 (docs/shapes.md)
 # The most detailed cluster of the paper, whose eccentricity gives mu_shape.
@@ -36,11 +35,15 @@ def fine_disk(path):
                 out.write(f"{ring / 4 * math.cos(angle):.9f} {ring / 4 * math.sin(angle):.9f} 0 {DISK_RATIO}\n")
 
 
+def measured(build, shape, *words):
+    """What clusterShape says of a shape."""
+    return json.loads(programs.output_of([build / "bin" / "clusterShape", *shape.split(), *words, "--json"]))
+
+
 def eccentricities(build, body):
     """Four estimates of mu_shape from small to large: the 5 and 25 % quantiles, the mean and the largest value of
     delta_e/R_eq on a plane, every orientation equally likely."""
-    words = [build / "bin" / "clusterShape", *PAPER_REFERENCE[body].split(), "--json"]
-    plane = json.loads(subprocess.run(words, check=True, capture_output=True, text=True).stdout)["eccentricity"]["plane"]
+    plane = measured(build, PAPER_REFERENCE[body])["eccentricity"]["plane"]
     return {"5 %": plane["quantiles"]["0.05"], "25 %": plane["quantiles"]["0.25"], "mean": plane["mean"], "largest": plane["max"]}
 
 
@@ -59,27 +62,25 @@ def levels_of(body, estimates, fine_file):
 
 def step_job(build, level, restitution):
     """The critical time step of a level: the smallest that fix timestep/limit meets while bodies fall and come to rest."""
-    scene = ROOT / "cases" / "accuracy-cost" / "in.step"
+    scene = CASES / "accuracy-cost" / "in.step"
     clusters = level.kind == "cluster"
     shape = level.shape if clusters else "sphere 1"
-    inputs = {"what": "step", "scene": runs.digest_of(scene), "shape": shape_key(shape), "restitution": restitution}
+    inputs = {"what": "step", "scene": digest_of(scene), "shape": shape_key(shape), "restitution": restitution}
 
     def work(folder):
-        words = [build / "bin" / "eccentra-dem", "-in", scene, "-log", "none", "-var", "clusters", int(clusters),
-                 "-var", "shape", shape, "-var", "restitution", restitution]
-        status, cpu, wall = runs.command(words, folder, folder / "out.txt")
-        if status:
-            raise runs.RunFailed(runs.sentence_of(folder / "out.txt", status))
+        line = [build / "bin" / "eccentra-dem", "-in", scene, "-log", "none",
+                *programs.variables(clusters=int(clusters), shape=shape, restitution=restitution)]
+        cpu, wall, _ = run(line, folder, folder / "out.txt")
         rows = re.findall(r"^ +\d+ +\d+ +([\d.e+-]+) +([\d.e+-]+)\s*$", (folder / "out.txt").read_text(), re.M)
         critical, contacts = min((float(step), float(n)) for step, n in rows if float(step) > 0)  # 0: not evaluated yet
         return {"critical": critical, "contacts": int(contacts), "cpu": cpu, "wall": wall}
 
-    return runs.Job(f"time step of {level.name}", inputs, work, 1.0)
+    return runs.Job(f"time step of {level.name}", inputs, work, 1.0, first=True)
 
 
 def shape_key(shape):
-    """What identifies a shape: its words, for a file its contents."""
-    return f"file {runs.digest_of(pathlib.Path(shape[5:]))}" if shape.startswith("file ") else shape
+    """What identifies a shape: its words, with the contents of files in place of their names."""
+    return " ".join(digest_of(path) if (path := pathlib.Path(word)).is_file() else word for word in shape.split())
 
 
 def dividing_step(period, critical):

@@ -9,91 +9,38 @@ import hashlib
 import json
 import os
 import pathlib
-import signal
-import subprocess
 import sys
-import threading
 import time
 import typing
 
+from .programs import Failure, RunFailed, code_of, digest_of, stop_with_the_user
 
-class RunFailed(Exception):
-    """A run that ended with an error; its text is one sentence."""
+MEASURING = ("frames", "measures", "screen", "timing")  # modules that turn what a run wrote into its result
 
 
 @dataclasses.dataclass
 class Job:
-    """One run: `inputs` (JSON) say all that its result depends on, `work(folder)` runs it in its folder and returns
-    the result (JSON); `estimate`: CPU seconds that it may take, for the time left."""
+    """One run: `inputs` (JSON) say all that its result depends on beside the build and the code that measures, `work(folder)` runs it in
+    its folder and returns the result (JSON); `estimate`: CPU seconds that it may take, for the time left; `first`: others need it; `tell`: what is
+    said of a result; `keep`: whether a result counts the next time."""
     name: str
     inputs: dict
     work: typing.Callable[[pathlib.Path], dict]
     estimate: float = 5.0
+    first: bool = False
+    tell: typing.Callable[[dict], str] = lambda result: f"{result.get('cpu', 0):.1f} s of CPU"
+    keep: typing.Callable[[dict], bool] = lambda result: True
 
     def key(self):
-        return hashlib.sha256(json.dumps(self.inputs, sort_keys=True).encode()).hexdigest()[:16]
+        return hashlib.sha256(json.dumps([self.inputs, measured_by(self.work)], sort_keys=True).encode()).hexdigest()[:16]
 
 
-def digest_of(*paths):
-    """Of the contents of files: what a scene says is an input as its variables are."""
-    total = hashlib.sha256()
-    for path in paths:
-        total.update(path.read_bytes())
-    return total.hexdigest()[:16]
-
-
-_running, _lock = set(), threading.Lock()
-
-
-def command(words, folder, log):
-    """Runs a program in a group of its own; returns its status, CPU seconds (with those of its children) and wall seconds."""
-    began = time.monotonic()
-    environment = {"WM_PROJECT_DIR": "/usr/share/openfoam", **os.environ,
-                   "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-    with open(log, "w") as out:
-        with _lock:  # none may start behind the back of a stop
-            process = subprocess.Popen([str(w) for w in words], cwd=folder, stdout=out, stderr=subprocess.STDOUT,
-                                       stdin=subprocess.DEVNULL, start_new_session=True, env=environment)
-            _running.add(process)
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        with _lock:
-            _running.discard(process)
-    return process.returncode, usage.ru_utime + usage.ru_stime, time.monotonic() - began
-
-
-def sentence_of(log, status):
-    """What a program that failed said: its first line with an error, or how it ended."""
-    lines = pathlib.Path(log).read_text(errors="replace").splitlines()
-    return next((line.strip() for line in lines if "error" in line.lower() and "errorcode" not in line),
-                f"ended with status {status}: see {log}")
-
-
-def _stop(*_):
-    with _lock:
-        for process in _running:
-            try:
-                os.killpg(process.pid, signal.SIGTERM)
-            except ProcessLookupError:
-                pass
-        sys.stderr.write("\nstopped: the same command goes on from here\n")
-        os._exit(130)
-
-
-def code_of(build):
-    """Of all programs and libraries of a build: what they compute with is an input, too."""
-    return digest_of(*sorted(file for folder in ("bin", "lib") for file in (build / folder).glob("*") if file.is_file()))
-
-
-def kept_in(output, root):
-    """Folder of a study's runs: all studies and sizes share one, unless the user has named a folder for this one."""
-    return (output.resolve() if output else root / "results") / "runs"
-
-
-def add_words(parser):
-    """Options that all studies have."""
-    parser.add_argument("--any-build", action="store_true", help="take finished runs of other builds, too (default: repeat them)")
-    parser.add_argument("--show", action="store_true", help="run nothing: write the pages from the finished runs, and say what is not run")
+def measured_by(work):
+    """Digest of the module of a job's work and of those that measure for it."""
+    module = sys.modules[work.__module__]
+    used = {value.__name__ for value in vars(module).values() if getattr(value, "__name__", "").startswith("study.")}
+    chosen = [name for name in MEASURING if f"study.{name}" in used]
+    return digest_of(pathlib.Path(module.__file__), *(pathlib.Path(__file__).with_name(f"{name}.py") for name in chosen))
 
 
 def good(result):
@@ -101,17 +48,25 @@ def good(result):
     return "failed" not in result and "missing" not in result
 
 
-class Store:
-    """Results of jobs in FOLDER/KEY/result.json, with the build that made them. `any_build`: those of other builds count, too;
-    `only_kept`: nothing is run, what is not there is {"missing": True}."""
+def needed(results, jobs):
+    """Results of jobs {name: Job} that a script cannot do without."""
+    for job in jobs.values():
+        result = results[job.key()]
+        if not good(result):
+            raise Failure(f"{job.name}: {result.get('failed', 'not run yet: leave out --show')}")
+    return {name: results[job.key()] for name, job in jobs.items()}
 
-    def __init__(self, folder, at_once, build, any_build=False, only_kept=False):
+
+class Store:
+    """Results of jobs in FOLDER/KEY/result.json, with the build that made them. `any_build`: those of other builds count, too; `only_kept`:
+    nothing is run, what is not there is {"missing": True}; `plan`: the same, and each run is named; `again`: what is there does not count."""
+
+    def __init__(self, folder, at_once, build, any_build=False, only_kept=False, plan=False, again=False):
         self.folder, self.at_once = pathlib.Path(folder), at_once
-        self.code, self.any_build, self.only_kept = code_of(build), any_build, only_kept
+        self.code, self.any_build, self.only_kept, self.plan, self.again = code_of(build), any_build, only_kept, plan, again
         self.used = {}  # key: what its file says besides the result
-        self.cpu, self.began = 0.0, time.monotonic()
-        signal.signal(signal.SIGINT, _stop)
-        signal.signal(signal.SIGTERM, _stop)
+        self.made = set()  # keys of this call's own runs
+        stop_with_the_user()
 
     def folder_of(self, job):
         return self.folder / job.key()
@@ -119,10 +74,10 @@ class Store:
     def result_of(self, job):
         """The kept result, or None."""
         file = self.folder_of(job) / "result.json"
-        if not file.is_file():
+        if not file.is_file() or (self.again and job.key() not in self.made):
             return None
         kept = json.loads(file.read_text())
-        if kept.get("code") != self.code and not self.any_build:
+        if kept.get("code") != self.code and not self.any_build or not job.keep(kept["result"]) and job.key() not in self.made:
             return None
         self.used[job.key()] = {name: kept[name] for name in ("code", "made", "load")} | {"cpu": kept["result"].get("cpu", 0.0)}
         return kept["result"]
@@ -136,6 +91,7 @@ class Store:
             return kept if kept is not None else self._work(job, folder)
 
     def _work(self, job, folder):
+        (folder / "result.json").unlink(missing_ok=True)  # its files are about to change
         try:
             result = job.work(folder)
         except RunFailed as failure:
@@ -144,8 +100,8 @@ class Store:
         part = folder / "result.part"
         part.write_text(json.dumps({"name": job.name, **about, "inputs": job.inputs, "result": result}, indent=1))
         part.replace(folder / "result.json")
-        with _lock:
-            self.used[job.key()] = about | {"cpu": result.get("cpu", 0.0)}
+        self.used[job.key()] = about | {"cpu": result.get("cpu", 0.0)}
+        self.made.add(job.key())
         return result
 
     def account(self):
@@ -162,23 +118,30 @@ class Store:
         """Results by key; those that are there are not repeated. A run that fails gives {"failed": sentence}."""
         unique = {job.key(): job for job in jobs}
         results = {key: self.result_of(job) for key, job in unique.items()}
-        todo = sorted((job for key, job in unique.items() if results[key] is None), key=lambda j: -j.estimate)
+        if self.plan:
+            for key, job in unique.items():
+                print(f"{key}.{self.code}  {'there  ' if results[key] is not None else 'to run '} {title}: {job.name}", flush=True)
+        todo = sorted((job for key, job in unique.items() if results[key] is None and (job.first or not self.plan)), key=lambda j: -j.estimate)
         if self.only_kept:
-            return {key: {"missing": True} if result is None else result for key, result in results.items()}
+            todo = []
         if todo:
             say = say or (lambda text: print(text, file=sys.stderr, flush=True))
-            say(f"{title}: {len(todo)} runs, {len(unique) - len(todo)} are there already, {self.at_once} at a time")
+            say(f"{title}: {len(todo)} runs, {len(unique) - len(todo)} are there already, {self.at_once} at a time"
+                + f", about {sum(j.estimate for j in todo) / self.at_once:.0f} s on an idle machine")
         began, total, finished, used = time.monotonic(), sum(j.estimate for j in todo), 0.0, 0.0
         with concurrent.futures.ThreadPoolExecutor(self.at_once) as pool:
             futures = {pool.submit(self._run, job): job for job in todo}
-            for number, future in enumerate(concurrent.futures.as_completed(futures), 1):
-                job = futures[future]
-                result = results[job.key()] = future.result()
-                finished += job.estimate
-                used += result.get("cpu", 0.0)
-                spent = time.monotonic() - began
-                left = spent * (total - finished) / finished
-                verdict = f"FAILED: {result['failed']}" if "failed" in result else f"{result.get('cpu', 0):.1f} s of CPU"
-                say(f"  [{number}/{len(todo)}] {spent:.0f} s, about {left:.0f} s left, {used:.0f} s of CPU | {job.name}: {verdict}")
-        self.cpu += used
-        return results
+            try:
+                for number, future in enumerate(concurrent.futures.as_completed(futures), 1):
+                    job = futures[future]
+                    result = results[job.key()] = future.result()
+                    finished += job.estimate
+                    used += result.get("cpu", 0.0)
+                    spent = time.monotonic() - began
+                    left = spent * (total - finished) / finished
+                    verdict = f"FAILED: {result['failed']}" if "failed" in result else job.tell(result)
+                    say(f"  [{number}/{len(todo)}] {spent:.0f} s, about {left:.0f} s left, {used:.0f} s of CPU | {job.name}: {verdict}")
+            except BaseException:  # out of disk, say: what has not begun does not begin
+                pool.shutdown(wait=False, cancel_futures=True)
+                raise
+        return {key: {"missing": True} if result is None else result for key, result in results.items()}

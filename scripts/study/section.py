@@ -5,10 +5,11 @@ import csv
 import math
 import shutil
 
-from . import runs, timing
-from .levels import ROOT, dividing_step, shape_key
+from . import programs, runs, timing
+from .levels import dividing_step, shape_key
+from .programs import CASES, digest_of, run
 
-CASE = ROOT / "cases" / "tomren-section"
+CASE = CASES / "tomren-section"
 AREA = math.pi * (0.0635**2 - 0.02413**2)  # of the annulus across the hole [m2]
 DIAMETER = 6.35e-3
 BODY_VOLUME = math.pi * DIAMETER**3 / 6
@@ -24,6 +25,20 @@ QUANTITIES = {"flux": ("solid flux", 1e-6), "gradient": ("pressure gradient", 1.
 def bodies_at(concentration, length):
     """Bodies that fill a share of the section."""
     return round(concentration * AREA * length / BODY_VOLUME)
+
+
+def rows_of(case):
+    """coupling.csv of a run as rows of numbers."""
+    with open(case / "postProcessing" / "eccentra" / "coupling.csv", newline="") as rows:
+        return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(rows)]
+
+
+def run_case(build, folder, words, case="case", source=CASE):
+    """Runs a case with options of its `run` (without --); the folder in which it ran, CPU and wall seconds."""
+    ran = folder / case
+    shutil.rmtree(ran, ignore_errors=True)
+    cpu, wall, _ = run([source / "run", "--bin", build / "bin", "--output", ran, *programs.options(**words)], folder, folder / "out.txt")
+    return ran, cpu, wall
 
 
 def level_words(level):
@@ -56,10 +71,10 @@ def estimate_of(words, spheres):
     return fluid_steps * cells * 2.2e-6 + dem_steps * int(words["count"]) * 2.5e-7 * (1 + 0.7 * (spheres > 1) + 0.03 * spheres) + 1
 
 
-def case_digest():
-    """Of all that the case's files say."""
-    settings = [file for folder in ("system", "constant") for file in sorted((CASE / folder).iterdir())]
-    return runs.digest_of(CASE / "in.cuttings", CASE.parent / "run-coupled", *settings)
+def case_digest(case=CASE):
+    """Of all that the case's files say, and of the program that runs them."""
+    files = sorted(file for file in case.rglob("*") if file.is_file() and not file.relative_to(case).parts[0].startswith("results"))
+    return digest_of(case.parent / "run-coupled", *files)
 
 
 def section_job(build, name, words, share=0.5, spheres=1, keep=None):
@@ -69,25 +84,14 @@ def section_job(build, name, words, share=0.5, spheres=1, keep=None):
     inputs = {"what": "section", "case": case_digest(), **described, "share": share, **({"keep": keep} if keep else {})}
 
     def work(folder):
-        case = folder / (keep or "case")
-        shutil.rmtree(case, ignore_errors=True)
-        line = [CASE / "run", "--bin", build / "bin", "--output", case]
-        for key, value in words.items():
-            line += [f"--{key}", value]
-        status, cpu, wall = runs.command(line, folder, folder / "out.txt")
-        if status:
-            raise runs.RunFailed(runs.sentence_of(folder / "out.txt", status))
-        report = [build / "bin" / "annulusReport", case, "-o", folder, "--share", share, "--no-pictures"]
-        status, _, _ = runs.command(report, folder, folder / "report.txt")
-        if status:
-            raise runs.RunFailed(runs.sentence_of(folder / "report.txt", status))
-        with open(case / "postProcessing" / "eccentra" / "coupling.csv", newline="") as rows:
-            last = list(csv.DictReader(rows))[-1]
+        case, cpu, wall = run_case(build, folder, words, keep or "case")
+        run([build / "bin" / "annulusReport", case, "-o", folder, "--share", share, "--no-pictures"], folder, folder / "report.txt")
+        last = rows_of(case)[-1]
         parts = timing.parts_of((case / "log.liggghts").read_text(errors="replace"))
-        parts["fluid"] += float(last["fluid_seconds"])
-        parts["link"] = float(last["exchange_seconds"]) + float(last["link_seconds"])
-        result = {"mean": read_summary(folder / "summary.csv"), "bodies": int(float(last["particles"])),
-                  "fastest": float(last["fastest_particle"]), "cpu": cpu, "wall": wall, "parts": timing.scaled(parts, cpu)}
+        parts["fluid"] += last["fluid_seconds"]
+        parts["link"] = last["exchange_seconds"] + last["link_seconds"]
+        result = {"mean": read_summary(folder / "summary.csv"), "bodies": int(last["particles"]),
+                  "fastest": last["fastest_particle"], "cpu": cpu, "wall": wall, "parts": timing.scaled(parts, cpu)}
         if not keep:
             shutil.rmtree(case)  # tens of MB; inputs and result stay
         return result

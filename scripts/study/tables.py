@@ -5,13 +5,17 @@ import csv
 import datetime
 import math
 import os
+import pathlib
 import platform
+import sys
 
 
 def number(value, digits=3):
     """A number as people write it; '-' for what is not known."""
     if isinstance(value, str) or value is None:
-        return value or "-"
+        return "-" if value is None else value
+    if isinstance(value, int):
+        return str(value)
     if math.isnan(value):
         return "-"
     if value == 0:
@@ -22,17 +26,17 @@ def number(value, digits=3):
     return f"{value:.{max(0, digits - 1 - math.floor(math.log10(size)))}f}"
 
 
-def text(header, rows):
+def text(header, rows, digits=3):
     """Columns as wide as they need to be, the first to the left."""
-    cells = [header] + [[number(v) for v in row] for row in rows]
+    cells = [header] + [[number(v, digits) for v in row] for row in rows]
     width = [max(len(row[k]) for row in cells) for k in range(len(header))]
     return "\n".join("  ".join(c.ljust(w) if k == 0 else c.rjust(w) for k, (c, w) in enumerate(zip(row, width))).rstrip()
                      for row in cells) + "\n"
 
 
-def markdown(header, rows):
+def markdown(header, rows, digits=3):
     lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
-    return "\n".join(lines + ["| " + " | ".join(number(v) for v in row) + " |" for row in rows]) + "\n"
+    return "\n".join(lines + ["| " + " | ".join(number(v, digits) for v in row) + " |" for row in rows]) + "\n"
 
 
 def write_csv(path, header, rows):
@@ -42,16 +46,16 @@ def write_csv(path, header, rows):
         writer.writerows(rows)
 
 
+OF_THIS_MACHINE = ("--build", "--out", "--output", "--measured", "--jobs")
+
+
 def called(script, words):
     """The call as others can repeat it: without the folders and files of this machine."""
     kept, skip = [], False
     for word in words:
-        if skip:
-            skip = False
-        elif word in ("--build", "--output", "--measured", "--jobs"):
-            skip = True
-        elif not word.startswith(("--build=", "--output=", "--measured=", "--jobs=")):
-            kept.append(word)
+        if not skip and word not in OF_THIS_MACHINE and not word.startswith(tuple(f"{name}=" for name in OF_THIS_MACHINE)):
+            kept.append(word if " " not in word else f'"{word}"')
+        skip = word in OF_THIS_MACHINE
     return " ".join([script, *kept])
 
 
@@ -60,5 +64,23 @@ def made(script, settings):
     model = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")),
                  platform.machine())
     load = os.getloadavg()[0]
-    return (f"Made by `{script}` on {datetime.date.today().isoformat()}, {os.cpu_count()} cores ({model}), load {load:.1f} at the end; "
-            f"{settings}.")
+    return (f"Made by `{called(script, sys.argv[1:])}` on {datetime.date.today().isoformat()}, {os.cpu_count()} cores ({model}), "
+            f"load {load:.1f} at the end; {settings}.")
+
+
+def finish(chosen, page, failed, *settings):
+    """Writes results.md with how it was made, says what is there and what failed; the exit status. chosen: the options."""
+    script = f"scripts/{pathlib.Path(sys.argv[0]).name}"
+    said = made(script, "; ".join([*settings[:1], chosen.store.account(), *settings[1:]]))
+    (chosen.out / "results.md").write_text("\n".join(page) + f"\n*{said}*\n")
+    print(f"written to {chosen.out}: {', '.join(sorted(file.name for file in chosen.out.iterdir() if file.is_file()))}")
+    for sentence in sorted(set(failed)):
+        print(f"FAILED {sentence}")
+    return 1 if failed else 0
+
+
+def publish(chosen, name, title, header, rows, digits=3):
+    """A table as CSV and on the screen; its Markdown for the page."""
+    write_csv(chosen.out / f"{name}.csv", header, rows)
+    print(f"{title}\n\n{text(header, rows, digits)}")
+    return f"{title}\n\n{markdown(header, rows, digits)}"

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests of scripts/study, scripts/accuracy-cost and scripts/paper."""
+"""Tests of scripts/study: its statistics on closed forms, its store of runs, its charts, and what the scripts say of bad words."""
 import csv
+import inspect
 import math
 import os
 import pathlib
@@ -144,14 +145,71 @@ class Measured(unittest.TestCase):
                 loop_data.read(file)
 
 
+class HardCases(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        sys.path.insert(0, str(ROOT / "tests" / "stability"))
+        from harness import case
+        cls.groups = case.read_all(BUILD, False)
+
+    def test_every_criterion_finds_its_values(self):
+        for case in (case for group in self.groups for case in group.cases):
+            for check in case.checks:
+                for name, parameter in inspect.signature(check.measure).parameters.items():
+                    given = name in case.values or name in check.fixed or name in ("run", "runs") or parameter.default is not parameter.empty
+                    self.assertTrue(given, f"{case.id}: {check.measure.__name__} asks for {name}")
+                self.assertLessEqual(set(check.fixed), set(inspect.signature(check.measure).parameters), case.id)
+
+    def test_names_are_unique_and_each_family_is_seen_failing(self):
+        cases = [case for group in self.groups for case in group.cases]
+        self.assertEqual(len({case.id for case in cases}), len(cases))
+        for group in self.groups:
+            for name in {case.name for case in group.cases}:
+                kinds = {case.failing for case in group.cases if case.name == name}
+                self.assertIn(False, kinds)
+            self.assertTrue(any(case.failing for case in group.cases), group.name)
+            self.assertTrue(all(entry["fails"] for entry in group.entries), group.name)
+
+    def test_the_same_texts_each_time(self):
+        from harness import case
+        again = case.read_all(BUILD, False)
+        texts = lambda groups: [[run.files for run in one.runs] for group in groups for one in group.cases]
+        self.assertEqual(texts(self.groups), texts(again))
+
+    def test_a_number_that_is_none_never_passes(self):
+        from harness.case import Check
+        for relation in ("below", "above", "equals"):
+            check = Check("what", lambda run: math.nan, **{relation: 0})
+            self.assertFalse(check.holds(check.value({"run": None}), 0))
+
+
 class Charts(unittest.TestCase):
-    def test_a_chart_is_well_formed(self):
+    def drawn(self, *panels):
         import xml.etree.ElementTree
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder) / "c.svg"
-            points = [charts.Point(1, 2, 0.1, "a < b"), charts.Point(10, 0.5, ring=True), charts.Point(3, 0, math.nan), charts.Point(5, 4, bound=1)]
-            charts.write(file, "A & B", [charts.Panel("p", "x", "y", [charts.Series("s", points, line=True)], True, True, (1, "noise"))])
-            xml.etree.ElementTree.parse(file)
+            charts.write(file, "A & B", list(panels))
+            text = file.read_text()
+            charts.write(file, "A & B", list(panels))
+            self.assertEqual(text, file.read_text())  # the same data, the same file
+        root = xml.etree.ElementTree.fromstring(text)
+        return [element.text for element in root.iter("{http://www.w3.org/2000/svg}text")], text
+
+    def test_points_errors_and_labels(self):
+        points = [charts.Point(1, 2, 0.1, "a < b"), charts.Point(10, 0.5, ring=True), charts.Point(3, 0, math.nan), charts.Point(5, 4, bound=1)]
+        panel = charts.Panel("p", "x", "y", [charts.Series("s", points, line=True)], True, True, (1, "noise"))
+        words, text = self.drawn(panel)
+        for word in ("A & B", "p", "x", "y", "s", "noise", "a < b"):
+            self.assertIn(word, words)
+        without = self.drawn(charts.Panel("p", "x", "y", [charts.Series("s", [charts.Point(q.x, q.y, math.nan, q.label, q.ring, q.bound) for q in points],
+                                                                       line=True)], True, True, (1, "noise")))[1]
+        self.assertGreater(len(text), len(without))  # an error is drawn
+
+    def test_bars_and_bodies(self):
+        words, _ = self.drawn(charts.Bars("b", "ratio", ["one", "two"], {"first": [(1, 0.1), (2, math.nan)], "second": [(3, 0), (math.nan, 0)]}, True))
+        self.assertEqual({"one", "two", "first", "second", "ratio"} & set(words), {"one", "two", "first", "second", "ratio"})
+        _, text = self.drawn(charts.Bodies("view", [(0, 0, 0), (0.5, 0.5, 0.5)], 0.1, (-1, 1, -1, 1), 2, [(0, 0, 1), [(-1, 1), (0, 0)]]))
+        self.assertEqual(text.count("<use"), 2)
 
 
 def run(script, *words):
@@ -218,7 +276,7 @@ class Scripts(unittest.TestCase):
             self.assertNotIn(" s of CPU |", again.stderr)  # nothing is repeated
             self.assertEqual(again.returncode, 0)
             timed = run("accuracy-cost", *words, "--retime")
-            self.assertEqual(timed.stderr.count(", for its time: "), 2)  # a run for each level, and no other
+            self.assertEqual(timed.stderr.count(", for its time: "), 2, timed.stderr)  # a run for each level, and no other
             self.assertEqual(timed.stderr.count(" s of CPU |"), 2)
             more = run("accuracy-cost", *words[:-6], "C8", *words[-6:], "--show")  # S1 C8
             self.assertEqual((more.returncode, " s of CPU |" in more.stderr), (0, False), more.stderr)
@@ -235,7 +293,19 @@ class Scripts(unittest.TestCase):
                 ("paper", ["--figures", "8"], "invalid choice: '8'"),
                 ("paper", ["--measured", "/nowhere.csv"], "--measured /nowhere.csv: "),
                 ("paper", ["--build", "/nowhere"], "there is no /nowhere/bin/eccentra-dem: build it with"),
-                ("full-scene", ["--build", "/nowhere"], "there is no /nowhere/bin/eccentra-dem: build it with")):
+                ("full-scene", ["--build", "/nowhere"], "there is no /nowhere/bin/eccentra-dem: build it with"),
+                ("full-scene", ["--levels", "C9"], "--levels names 'C9': there are"),
+                ("compare-rolling", ["--seeds", "9"], "--seeds is 9: give 1 to 8"),
+                ("compare-rolling", ["--mu", "-1"], "--mu is -1.0: give a number >= 0"),
+                ("compare-rolling", ["--scenes", "slope,ocean"], "invalid choice: 'ocean'"),
+                ("effects", ["--steps", "10"], "--steps is 10: a whole number of at least 1000 is needed"),
+                ("effects", ["--gradient", "1,5"], "--gradient is '1,5': a number in 1/s is needed"),
+                ("closure-cost", ["--repetitions", "x"], "'x' is not a whole number of at least 1"),
+                ("rheology-accuracy", ["--ratios", "a"], "--ratios: could not convert string to float: 'a'"),
+                ("solver-cost", ["--cells", "1 2"], "--cells is '1 2': give three whole numbers"),
+                ("cluster-speed", ["--shapes", "cube"], "--shapes has 'cube': give FAMILY:N"),
+                ("compare-peers", ["--codes", "ours", "--bodies", "100000"], "--bodies is 100000, which do not fit the scene: give"),
+                ("demo", ["--scenes", "moon"], "invalid choice: 'moon'")):
             with self.subTest(f"{script} {' '.join(words)}"):
                 said = run(script, *words)
                 self.assertNotEqual(said.returncode, 0)
@@ -245,7 +315,7 @@ class Scripts(unittest.TestCase):
 
 class Page(unittest.TestCase):
     def test_a_call_is_told_without_folders(self):
-        self.assertEqual(tables.called("scripts/x", ["--quick", "--build", "/a", "--output=/b", "--seeds", "3"]), "scripts/x --quick --seeds 3")
+        self.assertEqual(tables.called("scripts/x", ["--quick", "--build", "/a", "--output=/b", "--shape", "cube 8"]), 'scripts/x --quick --shape "cube 8"')
 
     def test_results_page_takes_the_largest_study_and_its_charts(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,0 +1,42 @@
+# SPDX-FileCopyrightText: Eccentra contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Puts what the studies found into docs/results.md, with their charts: nothing on that page is written by hand."""
+import argparse
+import pathlib
+import re
+import shutil
+
+from ..programs import ROOT
+
+STUDIES = ("accuracy-cost", "paper", "full-scene")
+HEAD = """# Results
+Made by `scripts/results` from what [accuracy-cost](accuracy-cost.md), [paper](paper.md) and `scripts/full-scene` wrote; do not edit.
+Each part says when, on how many cores and with which settings. `+-` is a standard error.
+"""
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="results", description=__doc__, allow_abbrev=False)
+    parser.add_argument("--results", type=pathlib.Path, default=ROOT / "results", help="folder of the studies' results (default: results)")
+    parser.add_argument("--docs", type=pathlib.Path, default=ROOT / "docs", help="folder of the page (default: docs)")
+    words = parser.parse_args()
+    page, found = [HEAD], 0
+    for study in STUDIES:
+        # The largest study that there is.
+        folders = [words.results / f"{study}{size}" for size in ("-full", "", "-quick")]
+        folder = next((f for f in folders if (f / "results.md").is_file()), None)
+        if folder is None:
+            page.append(f"## {study}\n\nNot run yet: `scripts/{study} --quick`.\n")
+            continue
+        found += 1
+        text = (folder / "results.md").read_text()
+        for name in re.findall(r"\]\(([\w./-]+\.(?:svg|png))\)", text):
+            copy = f"results-{name.replace('/', '-')}"
+            shutil.copy(folder / name, words.docs / copy)
+            text = text.replace(f"]({name})", f"]({copy})")
+        page.append(text)
+    if not found:
+        parser.error(f"there is no result in {words.results}: run scripts/accuracy-cost --quick first")
+    (words.docs / "results.md").write_text("\n".join(page))
+    print(f"written: {words.docs / 'results.md'}")
+    return 0
