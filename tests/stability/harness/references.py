@@ -61,12 +61,6 @@ def cubes_energy(spheres, youngs, poisson, apart):
     return energy
 
 
-GTEST_PASSED = r"\[  PASSED  \] (\d+) test"
-FUZZ_ACCEPTED, FUZZ_REFUSED = r"(\d+) accepted, ", r"(\d+) refused with one sentence"
-IMPACT_PAIRS = r"(\d+) pairs,"
-IMPACT_GAIN = r"largest relative change of energy ([-+0-9.e]+)"
-
-
 def spread(values, line=True):
     """(largest - smallest) / |mean| of the last half of a series; `line`: about its straight line of least squares."""
     late = values[len(values) // 2:]
@@ -131,9 +125,6 @@ def channel_velocity(gradient, gap, tau0, consistency, index):
     rest = 1 - tau0 / wall
     return (index / (index + 1) * gap / 2 * (wall / consistency) ** (1 / index) * rest ** (1 + 1 / index)
             * (1 - index / (2 * index + 1) * rest))
-
-
-MEAN_FLOW = r" <alpha U> ([-+0-9.e]+) m/s"
 
 
 def gradient(run):

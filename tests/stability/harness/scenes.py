@@ -7,6 +7,12 @@ import math
 _numbers = itertools.count(1)
 
 
+def restart():
+    """Of the numbers in names: the texts of a case do not depend on the cases before it."""
+    global _numbers
+    _numbers = itertools.count(1)
+
+
 def box(size, boundary="f f f", skin=1e-3, processors="* * *"):
     """Settings and simulation box; size: six numbers in one string [m]."""
     return f"""atom_style granular
@@ -94,6 +100,16 @@ def about(axis, degrees):
     parts = [math.cos(half), 0.0, 0.0, 0.0]
     parts[1 + "xyz".index(axis)] = math.sin(half)
     return " ".join(repr(part) for part in parts)
+
+
+def spheres_at(places):
+    """Single spheres at points."""
+    return "".join(f"create_atoms 1 single {x!r} {y!r} {z!r} units box\n" for x, y, z in places)
+
+
+def mud(rheology, velocity="0 0 0", drag="chien"):
+    """Fluid of 1000 kg/m3 with drag alone, at a velocity."""
+    return f"fix mud all fluid/force rheology {rheology} density 1000 drag {drag}\nfix flow all fluid/uniform velocity {velocity}\n"
 
 
 def explicit_drag(tau0, consistency, index, density, fluid_velocity="0"):
