@@ -1,20 +1,29 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sphere lists in text files: lines "x y z r", '#' starts a comment (LIGGGHTS's own clump format).
+// .clump files: rows of spheres, and lines "#: key values" with mass properties that were chosen, not measured.
+// LIGGGHTS takes these lines for comments.
 #pragma once
 
 #include "shape/cluster_shape.h"
 
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace eccentra::shape {
 
-/// Reads a sphere list. Throws std::invalid_argument that names file and line.
-std::vector<Sphere> read_clump(const std::string& path);
+struct Clump {
+  std::vector<Sphere> spheres;
+  std::optional<MassProperties> chosen; ///< where the file says them; the frame and unit are those of the spheres
+};
 
-/// Writes the spheres of a shape (body frame, metres) with all digits and its mass properties as comments.
+/// Reads a file of spheres, in any form that parse_spheres understands. Throws std::invalid_argument that names file
+/// and line.
+Clump read_clump(const std::string& path);
+
+/// Writes the spheres of a shape (body frame, metres) with all digits, and its mass properties: as a comment where they
+/// are those of the union of its spheres, as "#:" lines where others were chosen.
 void write_clump(std::ostream& out, const ClusterShape& shape);
 
 } // namespace eccentra::shape

@@ -25,6 +25,9 @@ constexpr double negligible_exposure = 1e-9;
 /// Centres of mass closer to the origin than this part of the size are at the origin.
 constexpr double negligible_offset = 1e-12;
 
+/// Bounding radii beyond these [m] are mistakes, and their fifth powers would not stay finite.
+constexpr double kMinSize = 1e-12, kMaxSize = 1e12;
+
 /// Rows are the body axes in the given frame: principal, right-handed, and as near to the given axes as the inertia
 /// allows.
 Eigen::Matrix3d principal_axes(const Eigen::Matrix3d& inertia) {
@@ -109,6 +112,9 @@ ClusterShape::ClusterShape(std::string name, std::vector<Sphere> spheres, const 
     s.centre = axes * (s.centre - origin);
     bounding_radius_ = std::max(bounding_radius_, s.centre.norm() + s.radius);
   }
+  if (!(bounding_radius_ > kMinSize && bounding_radius_ < kMaxSize))
+    throw std::invalid_argument("shape '" + name_ + "' has a bounding radius of " + std::to_string(bounding_radius_) +
+                                " m, which is no size of a body; expected 1e-12 to 1e12 m: check diameter and scale");
   const std::vector<double> exposed = measure_union(spheres_).exposed_area;
   smallest_radius_ = std::numeric_limits<double>::max();
   for (std::size_t i = 0; i < spheres_.size(); ++i)

@@ -4,7 +4,7 @@
 #include "tools/advise.h"
 
 #include "shape/eccentricity.h"
-#include "shape/shape_keywords.h"
+#include "shape/shape_family.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -229,13 +229,10 @@ double GeometryLevel::largest() const {
 }
 
 std::vector<GeometryLevel> geometry_levels(const std::string& body) {
-  std::vector<std::vector<std::string>> names;
-  if (body == "cube")
-    names = {{"sphere", "1"}, {"cube", "8"}, {"cube", "27"}, {"cube", "64"}, {"cube", "125"}, {"cube", "216"}};
-  else if (body == "disk")
-    names = {{"sphere", "1"}, {"disk", "7"}, {"disk", "19"}, {"disk", "48"}};
-  else
-    throw std::invalid_argument("advise knows no levels of '" + body + "': give cube or disk");
+  const std::vector<std::vector<std::string>>& names = shape_family(body).levels;
+  if (names.empty())
+    throw std::invalid_argument("advise knows no levels of '" + body +
+                                "': give a family that has some, such as cube or disk");
   struct Measures {
     double eccentricity, sphericity, inertia;
   };
@@ -246,7 +243,7 @@ std::vector<GeometryLevel> geometry_levels(const std::string& body) {
     const ClusterShape shape = make_shape(words, 0, used, kDiameter);
     const auto inertia = shape.inertia_per_mass();
     measures.push_back({eccentricity_plane(shape).mean(), shape.sphericity(), inertia.maxCoeff() / inertia.minCoeff()});
-    levels.push_back({shape.name(), std::stoi(words[1]), 0, 0, 0});
+    levels.push_back({shape.name(), static_cast<int>(shape.spheres().size()), 0, 0, 0});
   }
   const Measures& finest = measures.back();
   for (std::size_t k = 0; k < levels.size(); ++k) {

@@ -61,7 +61,7 @@ struct GeometryLevel {
 };
 
 /// Levels of `body` from the coarsest to the finest, the reference, which comes last. Throws std::invalid_argument for
-/// another word than cube or disk.
+/// a family without levels.
 std::vector<GeometryLevel> geometry_levels(const std::string& body);
 std::string text_of(const std::vector<GeometryLevel>& levels, double error);
 nlohmann::json json_of(const std::vector<GeometryLevel>& levels, double error);

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // clusterShape: from the command line to the shape and to what was asked about it.
-#include "shape/builtin_shapes.h"
+#include "base/standard_output.h"
 #include "shape/clump_file.h"
+#include "shape/shape_family.h"
 #include "shape/shape_keywords.h"
 #include "shape/vtk/picture.h"
 #include "shape/vtk/stl_shape.h"
@@ -13,9 +14,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <set>
 #include <stdexcept>
 
 namespace {
@@ -24,51 +28,74 @@ using namespace eccentra::shape;
 /// Size of built-in shapes where none is asked for: the cuttings of the paper [m].
 constexpr double default_diameter = 6.35e-3;
 
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+bool ends_with(std::string text, const std::string& end) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return !end.empty() && text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-/// Lets a bare file name stand for `file NAME` or `stl NAME`, and adds the options that belong to these arguments.
+const ShapeFamily* family_named(const std::string& word) {
+  for (const ShapeFamily& family : shape_families())
+    if (family.name == word)
+      return &family;
+  return nullptr;
+}
+
+bool has_option(const ShapeFamily& family, const std::string& name) {
+  return std::any_of(family.options.begin(), family.options.end(),
+                     [&](const ShapeOption& o) { return o.name == name; });
+}
+
+/// Lets a bare file name stand for the arguments of its family, and adds the options typed to the families that have
+/// them.
 std::vector<std::string> complete_arguments(const ShapeArguments& a, const std::vector<std::string>& typed) {
   std::vector<std::string> words;
+  std::set<std::string> families;
   for (std::size_t k = 0; k < typed.size(); ++k) {
-    std::string name = typed[k];
-    const bool clump = ends_with(name, ".clump"), stl = ends_with(name, ".stl") || ends_with(name, ".STL");
-    if (name == "file" || name == "stl") {
-      words.push_back(name);
+    const ShapeFamily* family = family_named(typed[k]);
+    if (family) {
+      words.push_back(typed[k]);
       if (++k >= typed.size())
         break;
-      words.push_back(typed[k]);
-      name = words[words.size() - 2];
-    } else if (clump || stl) {
-      name = clump ? "file" : "stl";
-      words.push_back(name);
-      words.push_back(typed[k]);
     } else {
-      words.push_back(name);
+      for (const ShapeFamily& other : shape_families())
+        if (ends_with(typed[k], other.extensions))
+          family = &other;
+      if (family)
+        words.push_back(family->name);
+    }
+    words.push_back(typed[k]);
+    if (!family)
       continue;
-    }
-    auto add = [&](const char* key, bool given, const std::string& value) {
-      if (given)
-        words.insert(words.end(), {key, value});
-    };
-    add("scale", a.scale > 0, fmt::format("{}", a.scale));
-    if (name == "stl") {
-      add("spheres", a.spheres > 0, std::to_string(a.spheres));
-      add("error", a.error > 0, fmt::format("{}", a.error));
-      add("resolution", a.resolution > 0, std::to_string(a.resolution));
-      add("mass", !a.mass.empty(), a.mass);
-    }
+    families.insert(family->name);
+    for (const auto& [name, value] : a.options)
+      if (has_option(*family, name))
+        words.insert(words.end(), {name, value});
+  }
+  for (const auto& [name, value] : a.options) {
+    std::string owners;
+    bool used = false;
+    for (const ShapeFamily& family : shape_families())
+      if (has_option(family, name)) {
+        owners += (owners.empty() ? "" : " and ") + family.name;
+        used = used || families.count(family.name) > 0;
+      }
+    if (!used)
+      throw std::invalid_argument("--" + name + " belongs to shapes " + owners + ": none was given" +
+                                  (name == "scale" ? "; give the size of another shape by --diameter" : ""));
   }
   return words;
 }
 
-ClusterShape next_shape(const ShapeArguments& a, const std::vector<std::string>& words, std::size_t& place) {
+ClusterShape next_shape(const ShapeArguments& a, const std::vector<std::string>& words, std::size_t& place,
+                        Notes& notes) {
   if (place >= words.size())
     throw std::invalid_argument("a shape is missing: see clusterShape --help");
-  const bool sized = words[place] == "file" || words[place] == "stl";
   std::size_t used = 0;
-  ClusterShape shape = make_shape(words, place, used, a.diameter > 0 ? a.diameter : sized ? 0 : default_diameter);
+  ClusterShape shape = make_shape(words, place, used,
+                                  a.diameter > 0               ? a.diameter
+                                  : has_own_size(words[place]) ? 0
+                                                               : default_diameter,
+                                  notes);
   place += used;
   return shape;
 }
@@ -78,16 +105,12 @@ void require_end(const std::vector<std::string>& words, std::size_t place) {
     throw std::invalid_argument("word '" + words[place] + "' is not understood: see clusterShape --help");
 }
 
-void require_stl_options_fit(const ShapeArguments& a, const std::vector<std::string>& words) {
-  bool stl = false, file = false;
-  for (const std::string& word : words) {
-    stl = stl || word == "stl";
-    file = file || word == "file";
-  }
-  if (!stl && (a.spheres > 0 || a.error > 0 || a.resolution > 0 || !a.mass.empty()))
-    throw std::invalid_argument("--spheres, --error, --resolution and --mass belong to STL files: none was given");
-  if (!stl && !file && a.scale > 0)
-    throw std::invalid_argument("--scale belongs to files: give the size of a built-in shape by --diameter");
+/// Beside the results, so that these stay what other programs read; JSON has them among the results.
+void print_notes(const ShapeArguments& a, const Notes& notes) {
+  if (a.json && !a.property_lines)
+    return;
+  for (const Note& note : notes)
+    fmt::print(stderr, "clusterShape: {}: {}\n", note.warning ? "warning" : "note", note.text);
 }
 
 void write_files(const ShapeArguments& a, const std::vector<ClusterShape>& shapes) {
@@ -105,35 +128,40 @@ void write_files(const ShapeArguments& a, const std::vector<ClusterShape>& shape
 
 std::string list_text() {
   std::string text;
-  for (const BuiltinShape& s : builtin_shapes()) {
-    std::size_t used = 0;
-    const ClusterShape shape = make_shape({s.family, std::to_string(s.count)}, 0, used, default_diameter);
-    text += fmt::format("{:<10} sphericity {:.3f}  {}\n", shape.name(), shape.sphericity(), s.description);
-  }
-  return text + fmt::format("cube n^3   any other cube up to n = {}\n", largest_cube);
+  for (const ShapeFamily& family : shape_families())
+    for (const KnownShape& known : family.known) {
+      std::size_t used = 0;
+      const ClusterShape shape = make_shape(known.arguments, 0, used, default_diameter);
+      text += fmt::format("{:<10} sphericity {:.3f}  {}\n", shape.name(), shape.sphericity(), known.description);
+    }
+  return text;
 }
 
-/// Numbers of spheres that the table of an STL file shows: 1, 2, 4, ... and all.
-std::vector<int> ladder(int all) {
+/// Numbers of spheres that the table of an STL file shows: 1, 2, 4, ... and all; of a balanced cover, whose first
+/// spheres are not the answer for fewer, all.
+std::vector<int> ladder(int all, Cover cover) {
   std::vector<int> steps;
-  for (int k = 1; k < all; k *= 2)
+  for (int k = 1; k < all && cover == Cover::inside; k *= 2)
     steps.push_back(k);
   steps.push_back(all);
   return steps;
 }
 
-void report_stl(const ShapeArguments& a, const std::string& path) {
-  if (a.spheres == 0 && a.error == 0)
-    throw std::invalid_argument("shape stl '" + path + "' needs to know where to stop: give --spheres N or --error E");
-  const Solid solid(path, a.scale > 0 ? a.scale : 1);
-  const std::vector<Sphere> spheres = inscribed_spheres(solid, {a.spheres, a.error, a.resolution});
-  const MassOf mass_of = a.mass == "solid" ? MassOf::solid : MassOf::spheres;
-  const ClusterShape shape = shape_of_solid(solid, spheres, mass_of, a.diameter);
-  const ShapeReport report = measure(shape, shape);
+void report_stl(const ShapeArguments& a, const std::vector<std::string>& words) {
+  std::size_t used = 0;
+  const StlRequest request = read_stl_request(words, 0, used);
+  require_end(words, used);
+  const Solid solid(request.path, request.scale);
+  const std::vector<Sphere> spheres = cover_of(solid, request);
+  Notes notes;
+  const ClusterShape shape = shape_of_solid(solid, spheres, request, a.diameter, notes);
+  print_notes(a, notes);
+  ShapeReport report = measure(shape, shape);
+  report.notes = notes;
   const SolidEccentricity own = solid_eccentricity(solid);
   std::vector<FitQuality> fits;
-  for (const int count : ladder(static_cast<int>(spheres.size())))
-    fits.push_back(fit_quality(solid, own, {spheres.begin(), spheres.begin() + count}, mass_of));
+  for (const int count : ladder(static_cast<int>(spheres.size()), request.cover))
+    fits.push_back(fit_quality(solid, own, {spheres.begin(), spheres.begin() + count}, request.mass_of));
   if (a.property_lines) {
     fmt::print("{}", property_lines(report, {a.partner, a.estimate}, {a.types, a.own_type, a.mu_r}));
   } else if (a.json) {
@@ -141,6 +169,7 @@ void report_stl(const ShapeArguments& a, const std::string& path) {
     for (const FitQuality& f : fits)
       table.push_back({{"spheres", f.spheres},
                        {"volume_error", f.volume},
+                       {"protrusion", f.protrusion},
                        {"inertia_error", f.inertia},
                        {"surface_distance", {{"mean", f.mean_distance}, {"max", f.max_distance}}},
                        {"eccentricity_error", {{"mean", f.mean_eccentricity}, {"max", f.max_eccentricity}}}});
@@ -155,60 +184,54 @@ void report_stl(const ShapeArguments& a, const std::string& path) {
     fmt::print("{}", to_text(report));
     fmt::print("  mass properties of the {}; solid: {} triangles, volume {:.6g} m3, delta_e/R_eq on plane mean {:.4f} "
                "max {:.4f}\n",
-               mass_of == MassOf::solid ? "solid" : "union of the spheres", solid.triangles().size(),
+               request.mass_of == MassOf::solid ? "solid" : "union of the spheres", solid.triangles().size(),
                solid.properties().volume, own.mean, own.max);
-    fmt::print("  spheres   volume  inertia  distance to surface/R_eq  delta_e/R_eq on plane\n"
-               "             error    error       mean        max       mean error  max error\n");
+    fmt::print("  spheres   volume  inertia  distance to surface/R_eq  protrusion  delta_e/R_eq on plane\n"
+               "           missing    error       mean        max      max/R_eq    mean error  max error\n");
     for (const FitQuality& f : fits)
-      fmt::print("  {:>7} {:>7.2f}% {:>7.2f}% {:>10.4f} {:>10.4f} {:>16.4f} {:>10.4f}\n", f.spheres, 100 * f.volume,
-                 100 * f.inertia, f.mean_distance, f.max_distance, f.mean_eccentricity, f.max_eccentricity);
+      fmt::print("  {:>7} {:>7.2f}% {:>7.2f}% {:>10.4f} {:>10.4f} {:>13.4f} {:>13.4f} {:>10.4f}\n", f.spheres,
+                 100 * f.volume, 100 * f.inertia, f.mean_distance, f.max_distance, f.protrusion, f.mean_eccentricity,
+                 f.max_eccentricity);
   }
   write_files(a, {shape});
 }
 
-/// Takes arguments that a LIGGGHTS script would have behind a shape ("diameter 6.35e-3", "spheres 50") for the options
-/// they name.
+/// Takes `diameter D`, as a LIGGGHTS script has it behind a shape, for --diameter.
 ShapeArguments with_script_words(ShapeArguments a) {
   std::vector<std::string> rest;
-  for (std::size_t k = 0; k < a.words.size(); ++k) {
-    const std::string key = a.words[k];
-    const bool known = key == "diameter" || key == "scale" || key == "spheres" || key == "error" ||
-                       key == "resolution" || key == "mass";
-    if (!known) {
-      rest.push_back(key);
-      continue;
+  for (std::size_t k = 0; k < a.words.size(); ++k)
+    if (a.words[k] != "diameter") {
+      rest.push_back(a.words[k]);
+    } else {
+      if (a.diameter > 0)
+        throw std::invalid_argument("the diameter is given twice: give it once");
+      a.diameter = positive_number(word_at(a.words, ++k, "a value after 'diameter'"), "diameter");
     }
-    const std::string& value = word_at(a.words, ++k, "a value after '" + key + "'");
-    if (key == "mass" && value != "solid" && value != "union")
-      throw std::invalid_argument("mass is '" + value + "': choose solid or union");
-    if (key == "mass")
-      a.mass = value;
-    else if (key == "spheres")
-      a.spheres = static_cast<int>(whole_number(value, key));
-    else if (key == "resolution")
-      a.resolution = static_cast<int>(whole_number(value, key));
-    else
-      (key == "diameter" ? a.diameter : key == "scale" ? a.scale : a.error) = positive_number(value, key);
-  }
   a.words = rest;
   return a;
 }
 
 void report_advice(const ShapeArguments& a) {
-  const std::string& body = word_at(a.words, 1, "cube or disk after 'advise'");
+  const std::string& body = word_at(a.words, 1, "a family such as cube or disk after 'advise'");
   require_end(a.words, 2);
-  if (!(a.error > 0))
+  double error = 0;
+  for (const auto& [name, value] : a.options)
+    if (name == "error")
+      error = positive_number(value, "error");
+    else
+      throw std::invalid_argument("--" + name + " does not belong to advise: leave it out");
+  if (!(error > 0))
     throw std::invalid_argument("advise needs to know the error that is allowed: give --error E, such as 0.05 for 5 %");
   if (a.data.empty()) {
     const std::vector<GeometryLevel> levels = geometry_levels(body);
-    fmt::print("{}", a.json ? json_of(levels, a.error).dump(2) + "\n" : text_of(levels, a.error));
+    fmt::print("{}", a.json ? json_of(levels, error).dump(2) + "\n" : text_of(levels, error));
     return;
   }
   std::ifstream in(a.data);
   if (!in)
     throw std::invalid_argument("cannot open '" + a.data + "': check the path, or leave --data out");
-  const std::vector<Advice> advice = advise(read_level_results(in, a.data), body, a.scene, a.error);
-  fmt::print("{}", a.json ? json_of(advice, a.error, a.data).dump(2) + "\n" : text_of(advice, a.error, a.data));
+  const std::vector<Advice> advice = advise(read_level_results(in, a.data), body, a.scene, error);
+  fmt::print("{}", a.json ? json_of(advice, error, a.data).dump(2) + "\n" : text_of(advice, error, a.data));
 }
 
 void run(const ShapeArguments& typed) {
@@ -228,25 +251,27 @@ void run(const ShapeArguments& typed) {
   const bool compare = a.words[0] == "compare";
   const std::vector<std::string> words =
       complete_arguments(a, std::vector<std::string>(a.words.begin() + (compare ? 1 : 0), a.words.end()));
-  require_stl_options_fit(a, words);
-  if (!compare && words[0] == "stl") {
-    const std::string& path = word_at(words, 1, "the name of an STL file after 'stl'");
-    require_end(a.words, a.words[0] == "stl" ? 2 : 1);
-    report_stl(a, path);
+  if (!compare && !words.empty() && words[0] == "stl") {
+    report_stl(a, words);
     return;
   }
   std::size_t place = 0;
-  std::vector<ClusterShape> shapes{next_shape(a, words, place)};
+  std::vector<Notes> notes(compare ? 2 : 1);
+  std::vector<ClusterShape> shapes{next_shape(a, words, place, notes[0])};
   if (compare)
-    shapes.push_back(next_shape(a, words, place));
+    shapes.push_back(next_shape(a, words, place, notes[1]));
   require_end(words, place);
-  const ShapeReport first = measure(shapes[0], shapes.back());
+  for (const Notes& of_shape : notes)
+    print_notes(a, of_shape);
+  ShapeReport first = measure(shapes[0], shapes.back());
+  first.notes = notes[0];
   if (a.property_lines) {
     fmt::print("{}", property_lines(first, {a.partner, a.estimate}, {a.types, a.own_type, a.mu_r}));
   } else if (!compare) {
     fmt::print("{}", a.json ? to_json(first).dump(2) + "\n" : to_text(first));
   } else {
-    const ShapeReport second = measure(shapes[1], shapes[0]);
+    ShapeReport second = measure(shapes[1], shapes[0]);
+    second.notes = notes[1];
     fmt::print("{}", a.json ? nlohmann::json{{"a", to_json(first)}, {"b", to_json(second)}}.dump(2) + "\n"
                             : compare_text(first, second));
   }
@@ -258,15 +283,15 @@ void run(const ShapeArguments& typed) {
 int main(int argc, char** argv) {
   ShapeArguments arguments;
   int exit_code = 0;
-  if (!read_arguments(argc, argv, arguments, exit_code))
-    return exit_code;
   try {
     install_stl_keywords();
-    run(arguments);
+    if (read_arguments(argc, argv, arguments, exit_code))
+      run(arguments);
+    eccentra::finish_standard_output();
   } catch (const std::exception& e) {
     std::fflush(stdout);
     fmt::print(stderr, "clusterShape: {}\n", e.what());
     return 1;
   }
-  return 0;
+  return exit_code;
 }

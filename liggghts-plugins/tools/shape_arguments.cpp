@@ -4,27 +4,32 @@
 #include "tools/shape_arguments.h"
 
 #include "eccentra/version.h"
+#include "shape/decimal.h"
+#include "shape/shape_family.h"
 
 #include <CLI/CLI.hpp>
 
 #include <cmath>
-#include <cstdlib>
+#include <map>
+#include <optional>
 
 namespace eccentra::shape {
 namespace {
 
-constexpr const char* description =
-    R"(Makes, measures, compares and draws particle shapes: rigid clusters of overlapping spheres.
-
-What to look at:
-  clusterShape sphere 1|6              smooth sphere, non-smooth sphere
-  clusterShape cube 8|27|64|n^3        cube of n x n x n spheres
-  clusterShape disk 7|19|48            disk of one layer of rings
-  clusterShape file NAME.clump         sphere list, lines "x y z r" in metres, "#" comments (also: clusterShape NAME.clump)
-  clusterShape stl NAME.stl --spheres N   fills a closed STL solid with its largest inscribed spheres
-  clusterShape compare A B             two shapes side by side, e.g. compare cube 64 disk 48, compare cube 8 mine.clump
-  clusterShape advise cube|disk --error E [--data levels.csv]   which level of detail keeps an error below E
-  clusterShape list                    the built-in shapes)";
+/// Head of the help: the families say themselves what they are.
+std::string description() {
+  std::string text = "Makes, measures, compares and draws particle shapes: rigid clusters of overlapping spheres.\n\n"
+                     "What to look at:\n";
+  for (const ShapeFamily& family : shape_families()) {
+    text += "  clusterShape " + family.syntax + "\n";
+    if (!family.extensions.empty())
+      text += "    or the bare name of a file that ends in " + family.extensions + "\n";
+  }
+  return text +
+         "  clusterShape compare A B      two shapes side by side, e.g. compare cube 64 disk 48\n"
+         "  clusterShape advise FAMILY --error E [--data levels.csv]   which level of detail keeps an error below E\n"
+         "  clusterShape list             the shapes that have a name";
+}
 
 constexpr const char* examples = R"(
 Examples:
@@ -39,20 +44,27 @@ In a LIGGGHTS script: fix ID all particletemplate/cluster SEED ... shape file pa
 CLI::Validator finite_number(bool zero_allowed) {
   return CLI::Validator(
       [zero_allowed](std::string& text) -> std::string {
-        char* end = nullptr;
-        const double value = std::strtod(text.c_str(), &end);
-        if (!text.empty() && !*end && std::isfinite(value) && (value > 0 || (zero_allowed && value == 0)))
+        const std::optional<double> value = decimal(text);
+        if (value && std::isfinite(*value) && (*value > 0 || (zero_allowed && *value == 0)))
           return {};
         return "'" + text + "' is not a number " + (zero_allowed ? "of 0 or more" : "greater than 0");
       },
       "");
 }
+/// An empty word comes of an unset variable.
+const CLI::Validator not_empty(
+    [](std::string& text) {
+      return text.empty() ? std::string("an empty word is no value: "
+                                        "is a variable unset?")
+                          : std::string();
+    },
+    "");
 const CLI::Validator positive = finite_number(false), not_negative = finite_number(true);
 
 } // namespace
 
 bool read_arguments(int argc, char** argv, ShapeArguments& a, int& exit_code) {
-  CLI::App app(description, "clusterShape");
+  CLI::App app(description(), "clusterShape");
   app.footer(examples);
   app.set_version_flag("--version", ECCENTRA_VERSION);
   app.get_formatter()->column_width(28);
@@ -60,11 +72,15 @@ bool read_arguments(int argc, char** argv, ShapeArguments& a, int& exit_code) {
   app.add_option("-d,--diameter", a.diameter,
                  "diameter of the sphere of equal volume [m]; default: 6.35e-3 for built-in shapes, as it is for files")
       ->check(positive);
-  app.add_option("-o,--output", a.clump, "write the spheres (body frame, metres)")->type_name("FILE.clump");
+  app.add_option("-o,--output", a.clump, "write the spheres (body frame, metres)")
+      ->type_name("FILE.clump")
+      ->check(not_empty);
   app.add_option("--vtk", a.vtk, "write the surface, coloured by delta_e/R_eq, for ParaView (.vtp or .vtk)")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(not_empty);
   app.add_option("--png", a.png, "draw a picture (needs the program Xvfb, which is started unseen)")
-      ->type_name("FILE.png");
+      ->type_name("FILE.png")
+      ->check(not_empty);
   app.add_flag("--json", a.json, "print JSON instead of a table");
   auto* lines =
       app.add_flag("--property-lines", a.property_lines, "print LIGGGHTS lines that set mu_shape = delta_e/R_eq");
@@ -83,25 +99,19 @@ bool read_arguments(int argc, char** argv, ShapeArguments& a, int& exit_code) {
   app.add_option("--mu-r", a.mu_r, "also print a line that sets mu_r of eq (33) to this for every pair")
       ->needs(lines)
       ->check(not_negative);
-  const std::string stl = "STL";
-  app.add_option("--spheres", a.spheres, "stop at this number of spheres")->group(stl)->check(CLI::Range(1, 4096));
-  app.add_option("--error", a.error,
-                 "stop where this part of the volume is still missing, e.g. 0.05; of advise: the error")
-      ->group(stl)
-      ->check(CLI::Range(1e-4, 0.9));
-  app.add_option("--resolution", a.resolution, "grid points along the longest side; default 48 or more")
-      ->group(stl)
-      ->check(CLI::Range(8, 400));
-  app.add_option("--scale", a.scale, "multiply the lengths of an STL or .clump file, e.g. 1e-3 for millimetres")
-      ->group(stl)
-      ->check(positive);
-  app.add_option("--mass", a.mass, "mass, centre and inertia of: union (the spheres; default) or solid")
-      ->group(stl)
-      ->check(CLI::IsMember({"union", "solid"}));
+  std::map<std::string, std::string> typed; // of the options of families, in the order of their names
+  for (const ShapeFamily& family : shape_families())
+    for (const ShapeOption& option : family.options)
+      if (typed.emplace(option.name, "").second)
+        app.add_option("--" + option.name, typed[option.name], option.help)
+            ->group("Options of shapes")
+            ->type_name("VALUE")
+            ->check(not_empty);
   const std::string advice = "Advice";
   auto* data = app.add_option("--data", a.data, "levels.csv of scripts/accuracy-cost; without it: geometry alone")
                    ->group(advice)
-                   ->type_name("FILE.csv");
+                   ->type_name("FILE.csv")
+                   ->check(not_empty);
   app.add_option("--scene", a.scene, "one scene of the data, such as heap; default all")
       ->group(advice)
       ->needs(data)
@@ -112,6 +122,9 @@ bool read_arguments(int argc, char** argv, ShapeArguments& a, int& exit_code) {
     exit_code = app.exit(e);
     return false;
   }
+  for (const auto& [name, value] : typed)
+    if (!value.empty())
+      a.options.emplace_back(name, value);
   return true;
 }
 

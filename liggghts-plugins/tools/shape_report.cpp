@@ -83,7 +83,8 @@ ShapeReport measure(const ClusterShape& shape, const ClusterShape& partner) {
           eccentricity_sphere(shape, shape.equivalent_radius()),
           eccentricity_surface(shape),
           eccentricity_cluster(shape, partner),
-          partner.name()};
+          partner.name(),
+          {}};
 }
 
 double default_mu_shape(const ShapeReport& report) {
@@ -124,7 +125,11 @@ nlohmann::json to_json(const ShapeReport& r) {
   nlohmann::json eccentricity;
   for (const auto& [name, d] : partners_of(r))
     eccentricity[name] = to_json(*d);
+  nlohmann::json notes = nlohmann::json::array();
+  for (const Note& note : r.notes)
+    notes.push_back({{"text", note.text}, {"warning", note.warning}});
   return {{"name", s.name()},
+          {"notes", notes},
           {"spheres", s.spheres().size()},
           {"touchable_spheres", s.surface_spheres().size()},
           {"smallest_radius", s.smallest_radius()},

@@ -5,6 +5,7 @@
 
 #include "shape/cluster_shape.h"
 #include "shape/eccentricity.h"
+#include "shape/note.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -19,6 +20,7 @@ struct ShapeReport {
   ClusterShape shape;
   EccentricityDistribution plane, sphere, surface, cluster;
   std::string partner; ///< name of the cluster met
+  Notes notes;
 };
 
 ShapeReport measure(const ClusterShape& shape, const ClusterShape& partner);

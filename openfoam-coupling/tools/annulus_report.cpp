@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // annulusReport: table, CSV, charts and pictures of one or more case folders.
+#include "base/standard_output.h"
 #include "report/bed_picture.h"
 #include "report/charts.h"
 #include "report/html_page.h"
@@ -87,7 +88,9 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    const int code = run(argc, argv);
+    eccentra::finish_standard_output();
+    return code;
   } catch (const std::exception& error) {
     std::fflush(stdout);
     std::fprintf(stderr, "annulusReport: error: %s\n", error.what());

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // eccentra-keys: makes the keys of a socket link between machines.
+#include "base/standard_output.h"
 #include "link/socket/keys.h"
 
 #include <cstdio>
@@ -9,20 +10,25 @@
 #include <exception>
 
 int main(int argc, char** argv) {
+  const bool help = argc == 2 && (!std::strcmp(argv[1], "-h") || !std::strcmp(argv[1], "--help"));
   if (argc != 2 || argv[1][0] == '-') {
-    std::printf(
+    std::fprintf(
+        help ? stdout : stderr,
         "usage: eccentra-keys FOLDER\n"
         "Makes dem.public, dem.secret, fluid.public and fluid.secret. Give the DEM side dem.secret and both public\n"
         "files, the fluid side fluid.secret and both public files (docs/link.md), by a safe way such as scp.\n");
-    const bool asked = argc == 2 && (!std::strcmp(argv[1], "-h") || !std::strcmp(argv[1], "--help"));
-    return asked ? EXIT_SUCCESS : EXIT_FAILURE;
+    if (!help)
+      return EXIT_FAILURE;
   }
   try {
-    eccentra::link::make_keys(argv[1]);
+    if (!help) {
+      eccentra::link::make_keys(argv[1]);
+      std::printf("keys are in %s\n", argv[1]);
+    }
+    eccentra::finish_standard_output();
   } catch (const std::exception& problem) {
     std::fprintf(stderr, "eccentra-keys: error: %s\n", problem.what());
     return EXIT_FAILURE;
   }
-  std::printf("keys are in %s\n", argv[1]);
   return EXIT_SUCCESS;
 }

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mass properties of unions of spheres against closed forms, invariances and an independent column integration.
-#include "shape/builtin_shapes.h"
 #include "shape/union_geometry.h"
 
 #include <Eigen/Geometry>
@@ -186,7 +185,8 @@ TEST(UnionGeometry, AgreesWithColumnsThroughRandomClusters) {
 TEST(UnionGeometry, AgreesWithColumnsThroughBuiltinShapes) {
   for (const auto& [family, count] :
        {std::pair<const char*, int>{"cube", 8}, {"cube", 27}, {"disk", 7}, {"disk", 19}}) {
-    const std::vector<Sphere> spheres = builtin_spheres(family, count);
+    std::size_t used = 0;
+    const std::vector<Sphere> spheres = make_shape({family, std::to_string(count)}, 0, used, 2.0).spheres();
     const MassProperties p = measure_union(spheres).properties;
     MassProperties reference = by_columns(spheres, 700);
     reference.surface = p.surface;

@@ -4,6 +4,7 @@
 #include "shape/vtk/inscribed_spheres.h"
 
 #include "shape/union_geometry.h"
+#include "shape/vtk/balanced_cover.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,7 @@ namespace {
 constexpr int default_resolution = 48;     ///< points along the longest side
 constexpr int points_across_thinnest = 12; ///< at least, where the number of points allows
 constexpr double max_points = 1.5e6;       ///< of the grid
+constexpr int balancing_steps = 5;         ///< halvings of the protrusion before the rest is grown
 constexpr int max_spheres = 4096;          ///< where only an error is asked for
 /// The exact volume is worked out once the grid's estimate of the error is within this factor of the error asked for.
 constexpr double estimate_margin = 1.5;
@@ -66,25 +68,39 @@ double lens(double r1, double r2, double d) {
   return M_PI * h * h * (d * d + 2 * d * (r1 + r2) - 3 * (r1 - r2) * (r1 - r2)) / (12 * d);
 }
 
+/// A point of the grid inside the solid.
+struct InnerPoint {
+  int i, j, k;
+  double depth; ///< under the surface, in grid spacings
+};
+
+std::vector<InnerPoint> inner_points(const Solid& solid, const Grid& grid) {
+  std::vector<InnerPoint> points;
+  const Eigen::Array3i n = grid.size();
+  for (int i = 0; i < n[0]; ++i)
+    for (int j = 0; j < n[1]; ++j)
+      for (int k = 0; k < n[2]; ++k) {
+        const double depth = -solid.distance(grid.point(i, j, k)) / grid.spacing;
+        if (depth > 0)
+          points.push_back({i, j, k, depth});
+        else // so far from the solid, the next points are outside, too
+          k += std::max(0, static_cast<int>(std::ceil(-depth)) - 1);
+      }
+  return points;
+}
+
 class Filling {
  public:
-  Filling(const Solid& solid, const Grid& grid) : grid_(grid), open_(grid.count(), 0) {
-    const Eigen::Array3i n = grid.size();
-    for (int i = 0; i < n[0]; ++i)
-      for (int j = 0; j < n[1]; ++j)
-        for (int k = 0; k < n[2]; ++k) {
-          const double depth = -solid.distance(grid.point(i, j, k)) / grid.spacing;
-          if (depth <= 0) { // so far from the solid, the next points are outside, too
-            k += std::max(0, static_cast<int>(std::ceil(-depth)) - 1);
-            continue;
-          }
-          open_[grid.index(i, j, k)] = 1;
-          ++inside_;
-          // A point has a cell of its own, half a spacing either way: smaller spheres have no measurable gain.
-          if (depth > 0.5)
-            candidates_.push_back({i, j, k, depth, ball(depth + 1)});
-        }
-    free_ = inside_;
+  /// `protrusion`, in grid spacings, is what spheres may stand out of the solid.
+  Filling(const Grid& grid, const std::vector<InnerPoint>& inside, double protrusion)
+      : grid_(grid), open_(grid.count(), 0), inside_(inside.size()), free_(inside.size()) {
+    for (const InnerPoint& point : inside) {
+      open_[grid.index(point.i, point.j, point.k)] = 1;
+      // A point has a cell of its own, half a spacing either way: smaller spheres have no measurable gain.
+      if (point.depth > 0.5)
+        candidates_.push_back(
+            {point.i, point.j, point.k, point.depth + protrusion, ball(point.depth + protrusion + 1)});
+    }
   }
 
   bool empty() const { return candidates_.empty(); }
@@ -159,15 +175,31 @@ class Filling {
   Grid grid_;
   std::vector<char> open_; ///< 1 at points inside the solid that no sphere taken holds
   std::vector<Candidate> candidates_;
-  std::size_t inside_ = 0, free_ = 0;
+  std::size_t inside_, free_;
   bool first_ = true;
 };
+
+/// The first `count` spheres, or fewer where no more add anything.
+std::vector<Sphere> filled(const Grid& grid, const std::vector<InnerPoint>& inside, std::size_t count,
+                           double protrusion) {
+  Filling filling(grid, inside, protrusion / grid.spacing);
+  std::vector<Sphere> spheres;
+  Sphere next;
+  while (spheres.size() < count && filling.take(next))
+    spheres.push_back(next);
+  return spheres;
+}
+
+double volume_of(const std::vector<Sphere>& spheres) {
+  return measure_union(spheres).properties.volume;
+}
 
 } // namespace
 
 std::vector<Sphere> inscribed_spheres(const Solid& solid, const InscribedOptions& options) {
   const Grid grid = grid_for(solid, options.resolution);
-  Filling filling(solid, grid);
+  const std::vector<InnerPoint> inside = inner_points(solid, grid);
+  Filling filling(grid, inside, 0);
   const std::string finer = ": give a higher resolution";
   if (filling.empty())
     throw std::invalid_argument("STL file '" + solid.path() + "' is thinner than the grid of its distance field" +
@@ -193,6 +225,32 @@ std::vector<Sphere> inscribed_spheres(const Solid& solid, const InscribedOptions
                                 " or a larger error");
   }
   return spheres;
+}
+
+std::vector<Sphere> balanced_spheres(const Solid& solid, const InscribedOptions& options) {
+  const std::size_t count =
+      options.volume_error > 0 ? inscribed_spheres(solid, options).size() : static_cast<std::size_t>(options.spheres);
+  const Grid grid = grid_for(solid, options.resolution);
+  const std::vector<InnerPoint> inside = inner_points(solid, grid);
+  const double wanted = solid.properties().volume;
+  // Larger spheres hold more: enclose the protrusion that gives the volume of the solid, from below.
+  double low = 0, high = (solid.high() - solid.low()).minCoeff() / 2;
+  std::vector<Sphere> best = filled(grid, inside, count, low);
+  if (best.empty())
+    throw std::invalid_argument("STL file '" + solid.path() +
+                                "' is thinner than the grid of its distance field: give a higher resolution");
+  for (int step = 0; step < balancing_steps; ++step) {
+    const double middle = (low + high) / 2;
+    const std::vector<Sphere> spheres = filled(grid, inside, count, middle);
+    if (volume_of(spheres) < wanted) {
+      low = middle;
+      best = spheres;
+    } else {
+      high = middle;
+    }
+  }
+  grow_to_volume(best, wanted);
+  return best;
 }
 
 } // namespace eccentra::shape

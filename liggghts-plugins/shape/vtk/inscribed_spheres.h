@@ -23,4 +23,9 @@ struct InscribedOptions {
 /// be reached.
 std::vector<Sphere> inscribed_spheres(const Solid& solid, const InscribedOptions& options);
 
+/// As many spheres as inscribed_spheres gives, each standing out of the solid by one and the same length, chosen so
+/// that their union has the volume of the solid. Their places are sought for these larger spheres: they are not those
+/// of inscribed_spheres.
+std::vector<Sphere> balanced_spheres(const Solid& solid, const InscribedOptions& options);
+
 } // namespace eccentra::shape

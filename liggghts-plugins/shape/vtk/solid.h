@@ -4,6 +4,8 @@
 #pragma once
 
 #include "shape/cluster_shape.h"
+#include "shape/note.h"
+#include "shape/surface.h"
 
 #include <array>
 #include <memory>
@@ -14,26 +16,36 @@ namespace eccentra::shape {
 
 class Solid {
  public:
-  /// Reads an ASCII or binary STL file and multiplies its lengths by `scale`. Throws std::invalid_argument with one
-  /// sentence where the file cannot be read, holds no triangles, is not closed or encloses no volume.
+  /// Reads an ASCII or binary STL file and multiplies its lengths by `scale`. What can be repaired in one way only
+  /// (repeated and degenerate facets, facets that face the wrong way, corners that differ by round-off) is, and notes()
+  /// says so. Throws std::invalid_argument with one sentence that says what the surface is where it is not that of one
+  /// solid: open, several solids, crossing itself, without volume, and so on.
   Solid(const std::string& path, double scale);
 
   const std::string& path() const { return path_; }
+  /// What was repaired, and what a user may not expect; one sentence each.
+  const Notes& notes() const { return notes_; }
   /// Of the solid, in the frame of the file, exact for its triangles.
   const MassProperties& properties() const { return properties_; }
-  const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
-  const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
+  const std::vector<Eigen::Vector3d>& vertices() const { return surface_.vertices; }
+  const std::vector<std::array<int, 3>>& triangles() const { return surface_.triangles; }
   Eigen::Vector3d low() const { return low_; }   ///< corner of the bounding box
   Eigen::Vector3d high() const { return high_; } ///< the opposite corner
 
   /// Distance to the surface [m], negative inside.
   double distance(const Eigen::Vector3d& point) const;
+  /// True inside, by winding numbers: slower than the sign of distance(), and independent of it.
+  bool holds(const Eigen::Vector3d& point) const;
 
  private:
   struct DistanceField;
-  std::string path_;
-  std::vector<Eigen::Vector3d> vertices_;
-  std::vector<std::array<int, 3>> triangles_;
+  void repair(const Surface& raw);
+  void require_one_solid(const std::vector<Shell>& shells);
+
+  std::string path_, where_;
+  Notes notes_;
+  Surface surface_;
+  std::vector<int> all_triangles_;
   MassProperties properties_;
   Eigen::Vector3d low_, high_;
   std::shared_ptr<DistanceField> field_;

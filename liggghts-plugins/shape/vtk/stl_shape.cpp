@@ -5,19 +5,39 @@
 
 #include "shape/directions.h"
 #include "shape/eccentricity.h"
+#include "shape/shape_family.h"
 #include "shape/shape_keywords.h"
 #include "shape/union_geometry.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <set>
 #include <stdexcept>
 
 namespace eccentra::shape {
 namespace {
 
+const std::vector<ShapeOption> kOptions = {
+    {"spheres", "stop at this number of spheres, 1 to 4096"},
+    {"error", "stop where this part of the volume is still missing, e.g. 0.05"},
+    {"resolution", "grid points along the longest side, 8 to 400; default 48, or more for thin solids"},
+    {"scale", "multiply the lengths of a file, e.g. 1e-3 for millimetres"},
+    {"mass", "mass, centre and inertia of: union (the spheres; default) or solid"},
+    {"cover", "inside (default), or balanced: spheres grow until their union has the volume of the solid"},
+    {"missing", "part of the volume that spheres may lack before they are refused; default 0.5"}};
+constexpr long kMaxSpheres = 4096, kMinResolution = 8, kMaxResolution = 400;
+/// Missing part of the volume that a note remarks upon.
+constexpr double kMuchMissing = 0.2;
+/// Spheres that stand out by more than this part of the equivalent radius: remarked upon.
+constexpr double kMuchOutside = 0.1;
+constexpr double kRoundOff = 1e-6;
+/// The largest spheres come first: so many are checked by winding numbers.
+constexpr std::size_t kCheckedSpheres = 32;
 constexpr int surface_samples = 4000;
 constexpr int max_directions = 20000;
 constexpr double max_vertex_visits = 4e8; ///< directions times vertices
@@ -52,45 +72,129 @@ double equivalent_radius(double volume) {
   return std::cbrt(3 * volume / (4 * M_PI));
 }
 
-ClusterShape from_stl_keywords(const std::vector<std::string>& arguments, std::size_t first, std::size_t& used,
-                               double diameter) {
-  const std::string path = word_at(arguments, first + 1, "the name of an STL file after 'stl'");
-  InscribedOptions options;
-  double scale = 1;
-  MassOf mass_of = MassOf::spheres;
-  used = 2;
-  for (std::size_t k = first + 2; k < arguments.size(); k += 2, used += 2) {
-    const std::string& key = arguments[k];
-    if (key != "spheres" && key != "scale" && key != "mass" && key != "resolution" && key != "error")
-      break;
-    const std::string& value = word_at(arguments, k + 1, "a value after '" + key + "'");
-    if (key == "spheres")
-      options.spheres = static_cast<int>(whole_number(value, "number of spheres of '" + path + "'"));
-    else if (key == "error")
-      options.volume_error = positive_number(value, "volume error of '" + path + "'");
-    else if (key == "resolution")
-      options.resolution = static_cast<int>(whole_number(value, "resolution of '" + path + "'"));
-    else if (key == "scale")
-      scale = positive_number(value, "scale of '" + path + "'");
-    else if (value == "solid" || value == "union")
-      mass_of = value == "solid" ? MassOf::solid : MassOf::spheres;
-    else
-      throw std::invalid_argument("mass of '" + path + "' is '" + value + "': choose solid or union");
-  }
-  if (options.spheres == 0 && options.volume_error == 0)
-    throw std::invalid_argument("shape stl '" + path + "' needs to know where to stop: give 'spheres N' or 'error E'");
-  const Solid solid(path, scale);
-  return shape_of_solid(solid, inscribed_spheres(solid, options), mass_of, diameter);
+std::string percent(double part) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%.1f %%", 100 * part);
+  return text.data();
+}
+
+MassProperties properties_of(const Solid& solid, const std::vector<Sphere>& spheres, MassOf mass_of) {
+  return mass_of == MassOf::solid ? solid.properties() : measure_union(spheres).properties;
+}
+
+ClusterShape make(const ShapeRequest& request, std::size_t& used, Notes& notes) {
+  const StlRequest wanted = read_stl_request(request.arguments, request.first, used);
+  const Solid solid(wanted.path, wanted.scale);
+  return shape_of_solid(solid, cover_of(solid, wanted), wanted, request.diameter, notes);
 }
 
 } // namespace
 
-ClusterShape shape_of_solid(const Solid& solid, std::vector<Sphere> spheres, MassOf mass_of, double diameter) {
-  MassProperties p = mass_of == MassOf::solid ? solid.properties() : measure_union(spheres).properties;
-  if (mass_of == MassOf::solid)
-    p.surface = solid.properties().surface;
+StlRequest read_stl_request(const std::vector<std::string>& arguments, std::size_t first, std::size_t& used) {
+  StlRequest request;
+  request.path = word_at(arguments, first + 1, "the name of an STL file after 'stl'");
+  const std::string of = " of '" + request.path + "'";
+  const auto one_of = [&](const std::string& key, const std::string& value, const char* no, const char* yes) {
+    if (value != no && value != yes)
+      throw std::invalid_argument(key + of + " is '" + value + "': choose " + yes + " or " + no);
+    return value == yes;
+  };
+  const auto part = [&](const std::string& value, const std::string& what) {
+    const double number = positive_number(value, what);
+    if (number >= 1)
+      throw std::invalid_argument(what + " is '" + value +
+                                  "': give the part of the volume that may be missing, below 1, such as 0.05");
+    return number;
+  };
+  std::set<std::string> given;
+  used = 2;
+  for (std::size_t k = first + 2; k < arguments.size(); k += 2, used += 2) {
+    const std::string& key = arguments[k];
+    if (std::none_of(kOptions.begin(), kOptions.end(), [&](const ShapeOption& option) { return option.name == key; }))
+      break;
+    if (!given.insert(key).second)
+      throw std::invalid_argument("'" + key + "'" + of + " is given twice: give it once");
+    const std::string& value = word_at(arguments, k + 1, "a value after '" + key + "'");
+    if (key == "spheres") {
+      const long count = whole_number(value, "number of spheres" + of);
+      if (count > kMaxSpheres)
+        throw std::invalid_argument("number of spheres" + of + " is '" + value + "': give at most " +
+                                    std::to_string(kMaxSpheres));
+      request.options.spheres = static_cast<int>(count);
+    } else if (key == "error") {
+      request.options.volume_error = part(value, "volume error" + of);
+    } else if (key == "missing") {
+      request.max_missing = part(value, "missing" + of);
+    } else if (key == "resolution") {
+      const long points = whole_number(value, "resolution" + of);
+      if (points < kMinResolution || points > kMaxResolution)
+        throw std::invalid_argument("resolution" + of + " is '" + value + "': give " + std::to_string(kMinResolution) +
+                                    " to " + std::to_string(kMaxResolution) + " points along the longest side");
+      request.options.resolution = static_cast<int>(points);
+    } else if (key == "scale") {
+      request.scale = positive_number(value, "scale" + of);
+      request.scale_given = true;
+    } else if (key == "mass") {
+      request.mass_of = one_of("mass", value, "union", "solid") ? MassOf::solid : MassOf::spheres;
+    } else {
+      request.cover = one_of("cover", value, "inside", "balanced") ? Cover::balanced : Cover::inside;
+    }
+  }
+  if (request.options.spheres == 0 && request.options.volume_error == 0)
+    throw std::invalid_argument(
+        "shape stl '" + request.path +
+        "' needs to know where to stop: give 'spheres N' or 'error E' (clusterShape: --spheres N, "
+        "--error E)");
+  return request;
+}
+
+std::vector<Sphere> cover_of(const Solid& solid, const StlRequest& request) {
+  const bool balanced = request.cover == Cover::balanced;
+  std::vector<Sphere> spheres =
+      balanced ? balanced_spheres(solid, request.options) : inscribed_spheres(solid, request.options);
+  const double missing = 1 - measure_union(spheres).properties.volume / solid.properties().volume;
+  const std::string who = "STL file '" + solid.path() + "': ";
+  bool inside = missing > -kRoundOff;
+  for (std::size_t k = 0; k < std::min(spheres.size(), kCheckedSpheres); ++k)
+    inside = inside && solid.holds(spheres[k].centre);
+  if (!inside)
+    throw std::invalid_argument(who + "spheres would lie outside of it, because its facets do not part inside from "
+                                      "outside; expected the clean surface of one solid: remesh it");
+  if (!balanced && missing > std::max(request.max_missing, request.options.volume_error))
+    throw std::invalid_argument(who + std::to_string(spheres.size()) + " spheres lack " + percent(missing) +
+                                " of the volume of the solid; expected at most " + percent(request.max_missing) +
+                                ": give more spheres, write 'cover balanced', or allow it by 'missing " +
+                                std::to_string(std::min(0.99, missing + 0.01)).substr(0, 4) + "'");
+  return spheres;
+}
+
+ClusterShape shape_of_solid(const Solid& solid, std::vector<Sphere> spheres, const StlRequest& request, double diameter,
+                            Notes& notes) {
+  notes.insert(notes.end(), solid.notes().begin(), solid.notes().end());
+  const std::string who = "STL file '" + solid.path() + "': ";
+  const double missing = 1 - measure_union(spheres).properties.volume / solid.properties().volume;
+  if (request.cover == Cover::inside) {
+    notes.push_back({who + std::to_string(spheres.size()) +
+                         (spheres.size() == 1 ? " sphere holds " : " spheres hold ") + percent(1 - missing) +
+                         " of the volume of the solid, " + percent(missing) + " are missing" +
+                         (missing > kMuchMissing ? ": give more spheres, or write cover balanced" : ""),
+                     missing > kMuchMissing});
+  } else {
+    double out = 0;
+    for (const Sphere& s : spheres)
+      out = std::max(out, s.radius + solid.distance(s.centre));
+    const bool much = out > kMuchOutside * equivalent_radius(solid.properties().volume);
+    notes.push_back({who + std::to_string(spheres.size()) +
+                         " spheres have the volume of the solid and stand out of it by " +
+                         percent(out / equivalent_radius(solid.properties().volume)) + " of its equivalent radius" +
+                         (much ? ": give more spheres" : ""),
+                     much});
+  }
+  if (diameter <= 0 && !request.scale_given)
+    note_size(spheres, "STL file '" + solid.path() + "'", notes);
+  MassProperties p = properties_of(solid, spheres, request.mass_of);
   if (diameter > 0)
-    resize(spheres, p, diameter / (2 * equivalent_radius(p.volume)));
+    resize(spheres, p, scale_to_diameter(p.volume, diameter));
   return ClusterShape(solid.path(), std::move(spheres), p);
 }
 
@@ -131,14 +235,20 @@ FitQuality fit_quality(const Solid& solid, const SolidEccentricity& own, const s
     fit.mean_distance += distance / static_cast<double>(points.size());
     fit.max_distance = std::max(fit.max_distance, distance);
   }
-  const EccentricityDistribution plane = eccentricity_plane(shape_of_solid(solid, spheres, mass_of, 0));
+  for (const Sphere& s : spheres)
+    fit.protrusion = std::max(fit.protrusion, (s.radius + solid.distance(s.centre)) / unit);
+  const EccentricityDistribution plane =
+      eccentricity_plane(ClusterShape(solid.path(), spheres, properties_of(solid, spheres, mass_of)));
   fit.mean_eccentricity = plane.mean() - own.mean;
   fit.max_eccentricity = plane.max() - own.max;
   return fit;
 }
 
 void install_stl_keywords() {
-  install_stl_maker(from_stl_keywords);
+  ShapeFamily family{"stl", "stl NAME.stl spheres N|error E", true, make};
+  family.extensions = ".stl";
+  family.options = kOptions;
+  add_shape_family(family);
 }
 
 } // namespace eccentra::shape

@@ -15,14 +15,38 @@ namespace eccentra::shape {
 /// Whose mass, centre and inertia a body made of a solid has.
 enum class MassOf { solid, spheres };
 
+/// Whether spheres stay inside the solid, or all grow until their union has its volume.
+enum class Cover { inside, balanced };
+
+/// What the arguments `stl NAME ...` ask for.
+struct StlRequest {
+  std::string path;
+  InscribedOptions options;
+  double scale = 1;
+  bool scale_given = false;
+  MassOf mass_of = MassOf::spheres;
+  Cover cover = Cover::inside;
+  double max_missing = 0.5; ///< part of the volume that spheres inside may lack
+};
+/// Reads arguments[first] (`stl`) and what follows; `used` becomes the number of arguments. Throws
+/// std::invalid_argument.
+StlRequest read_stl_request(const std::vector<std::string>& arguments, std::size_t first, std::size_t& used);
+
+/// The spheres asked for. Throws std::invalid_argument where they lack more of the volume of the solid than
+/// `max_missing` and `error` allow, or where they do not lie in the solid.
+std::vector<Sphere> cover_of(const Solid& solid, const StlRequest& request);
+
 /// The shape of these spheres, sized so that the volume of `mass_of` is that of a sphere of `diameter` [m] (<= 0: as it
-/// is).
-ClusterShape shape_of_solid(const Solid& solid, std::vector<Sphere> spheres, MassOf mass_of, double diameter);
+/// is). Adds the notes of the solid, how much of the volume the spheres hold, and whether lengths may be
+/// millimetres.
+ClusterShape shape_of_solid(const Solid& solid, std::vector<Sphere> spheres, const StlRequest& request, double diameter,
+                            Notes& notes);
 
 /// Deviation of a union of spheres from its solid; parts of the solid's values, lengths in units of its R_eq.
 struct FitQuality {
   int spheres;
   double volume;                      ///< missing part of the volume
+  double protrusion;                  ///< how far a sphere stands out of the solid at most
   double inertia;                     ///< norm of the difference of the inertia tensors per mass, own centres
   double mean_distance, max_distance; ///< from the solid's surface to the spheres
   double mean_eccentricity;           ///< delta_e / R_eq on a plane: value of the spheres less that of the solid
@@ -39,7 +63,7 @@ SolidEccentricity solid_eccentricity(const Solid& solid);
 FitQuality fit_quality(const Solid& solid, const SolidEccentricity& own, const std::vector<Sphere>& spheres,
                        MassOf mass_of);
 
-/// Makes `stl NAME spheres N [scale S] [mass solid|union] [resolution M]` known to make_shape. Call once at start.
+/// Makes the family `stl`, which needs VTK, known to make_shape. Call once at start.
 void install_stl_keywords();
 
 } // namespace eccentra::shape

@@ -3,8 +3,10 @@
 // Reads the arguments of fix particletemplate/cluster and fills what stock fix insert/* places.
 #include "styles/bodies/fix_particletemplate_cluster.h"
 
+#include "shape/shape_keywords.h"
 #include "styles/bodies/cluster_to_insert.h"
 #include "styles/bodies/fix_cluster_bodies.h"
+#include "styles/entry/printed_notes.h"
 #include "styles/entry/style_registry.h"
 
 #include "error.h"
@@ -81,7 +83,7 @@ TemplateArguments::TemplateArguments(LAMMPS* lmp, int narg, char** arg) {
       for (++i; i < narg && !is_keyword(arg[i]); ++i)
         shape_keywords.emplace_back(arg[i]);
       if (shape_keywords.empty())
-        fail(lmp, id, "nothing follows 'shape': give sphere 1|6, cube N, disk 7|19|48, or file NAME.clump");
+        fail(lmp, id, "nothing follows 'shape': give a shape, such as cube 64 or file NAME.clump");
     } else if (word == "diameter" || word == "orientation") {
       if (i + 1 >= narg)
         fail(lmp, id, "keyword '" + word + "' needs a value");
@@ -104,10 +106,6 @@ TemplateArguments::TemplateArguments(LAMMPS* lmp, int narg, char** arg) {
                "additional_group, shape, diameter and orientation");
     }
   }
-  if (shape_keywords.size() > 2 && shape_keywords[0] != "file" && shape_keywords[0] != "stl")
-    fail(lmp, id,
-         "unknown word '" + shape_keywords[2] + "' after the shape '" + shape_keywords[0] + " " + shape_keywords[1] +
-             "': diameter and orientation may follow");
   if (!have_density)
     fail(lmp, id, "no density: write `density constant VALUE`, that of the solid in kg/m3");
   if (shape_keywords.empty())
@@ -119,11 +117,13 @@ FixParticletemplateCluster::FixParticletemplateCluster(LAMMPS* lmp, const Templa
       density_(expectancy(pdf_density)), random_orientation_(arguments.random_orientation) {
   std::size_t used = 0;
   try {
-    shape::ClusterShape shape = shape::make_shape(arguments.shape_keywords, 0, used, arguments.diameter);
+    shape::Notes notes;
+    shape::ClusterShape shape = shape::make_shape(arguments.shape_keywords, 0, used, arguments.diameter, notes);
     if (used != arguments.shape_keywords.size())
-      fail(lmp, id, "unknown word '" + arguments.shape_keywords[used] + "' after the shape");
-    if (arguments.diameter <= 0 && arguments.shape_keywords[0] != "file")
-      fail(lmp, id, "no diameter: write `diameter VALUE`, that of the sphere of equal volume in m");
+      fail(lmp, id,
+           "unknown word '" + arguments.shape_keywords[used] + "' after the shape '" + shape.name() +
+               "': diameter and orientation may follow");
+    styles::print_notes(lmp, "fix " + std::string(id) + " " + style, notes);
     volume_ = shape.volume();
     pdf_radius = new PDF(error);
     pdf_radius->set_params<RANDOM_CONSTANT>(shape.bounding_radius());

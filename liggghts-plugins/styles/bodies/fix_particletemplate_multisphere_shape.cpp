@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // fix particletemplate/multisphere/shape: our shapes, with their exact mass and inertia, for stock fix multisphere.
 #include "shape/cluster_shape.h"
+#include "shape/shape_keywords.h"
+#include "styles/entry/printed_notes.h"
 #include "styles/entry/style_registry.h"
 
 #include <mpi.h>
@@ -122,9 +124,11 @@ Fix* create(LAMMPS* lmp, int narg, char** arg) {
       throw std::invalid_argument("write: SEED atom_type 1 density constant VALUE shape cube 64 diameter D");
     const TemplateArguments parts = take_apart({arg + 4, arg + narg});
     std::size_t used = 0;
-    const shape::ClusterShape shape = shape::make_shape(parts.shape, 0, used, parts.diameter);
+    shape::Notes notes;
+    const shape::ClusterShape shape = shape::make_shape(parts.shape, 0, used, parts.diameter, notes);
     if (used != parts.shape.size())
       throw std::invalid_argument("unknown word '" + parts.shape[used] + "' after the shape");
+    styles::print_notes(lmp, where.substr(0, where.size() - 2), notes);
     if (shape.spheres().size() < 2)
       throw std::invalid_argument("shape '" + shape.name() +
                                   "' is one sphere, which fix multisphere does not take: use particletemplate/sphere");

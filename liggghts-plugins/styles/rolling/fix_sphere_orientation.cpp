@@ -3,6 +3,8 @@
 // Turns orientations with the exact rotation of a constant spin over the step.
 #include "styles/rolling/fix_sphere_orientation.h"
 
+#include "shape/shape_keywords.h"
+#include "styles/entry/printed_notes.h"
 #include "styles/entry/style_registry.h"
 
 #include "atom.h"
@@ -69,7 +71,10 @@ FixSphereOrientation* FixSphereOrientation::make(LAMMPS_NS::LAMMPS* lmp, const s
   fix->shape_keywords_ = shape_keywords;
   try {
     std::size_t used = 0;
-    fix->shape_ = std::make_unique<contact::SupportTable>(shape::make_shape(shape_keywords, 0, used, kUnitDiameter));
+    shape::Notes notes;
+    const shape::ClusterShape body = shape::make_shape(shape_keywords, 0, used, kUnitDiameter, notes);
+    styles::print_notes(lmp, "rolling_friction eccentric", notes);
+    fix->shape_ = std::make_unique<contact::SupportTable>(body);
   } catch (const std::invalid_argument& problem) {
     lmp->error->all(FLERR, (std::string("rolling_friction eccentric: ") + problem.what()).c_str());
   }

@@ -51,6 +51,8 @@ std::string read_key(const std::string& path) {
 } // namespace
 
 void make_keys(const std::string& folder) {
+  if (folder.empty())
+    throw Refusal("the name of the folder for the keys is empty; expected a folder: is a variable unset?");
   std::error_code problem;
   std::filesystem::create_directories(folder, problem);
   for (const char* side : {"dem", "fluid"}) {
