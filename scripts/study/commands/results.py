@@ -8,6 +8,7 @@ import shutil
 
 from ..programs import ROOT
 
+CENTRAL_CHART = "levels-cube.svg"
 STUDIES = ("accuracy-cost", "paper", "full-scene")
 HEAD = """# Results
 Made by `scripts/results` from what [accuracy-cost](accuracy-cost.md), [paper](paper.md) and `scripts/full-scene` wrote; do not edit.
@@ -30,10 +31,13 @@ def main():
             continue
         found += 1
         text = (folder / "results.md").read_text()
-        for name in re.findall(r"\]\(([\w./-]+\.(?:svg|png))\)", text):
-            copy = f"results-{name.replace('/', '-')}"
-            shutil.copy(folder / name, words.docs / copy)
-            text = text.replace(f"]({name})", f"]({copy})")
+        for whole, name in re.findall(r"(!\[[^\]]*\]\(([\w./-]+\.(?:svg|png))\))", text):
+            if name == CENTRAL_CHART:
+                copy = f"results-{name}"
+                shutil.copy(folder / name, words.docs / copy)
+                text = text.replace(f"]({name})", f"]({copy})")
+            else:  # pictures belong to the results of a run, not to the sources
+                text = text.replace(whole, f"Chart: `results/{folder.name}/{name}`.")
         page.append(text)
     if not found:
         parser.error(f"there is no result in {words.results}: run scripts/accuracy-cost --quick first")
