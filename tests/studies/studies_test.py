@@ -282,6 +282,29 @@ class Scripts(unittest.TestCase):
             self.assertEqual((more.returncode, " s of CPU |" in more.stderr), (0, False), more.stderr)
             self.assertRegex((pathlib.Path(folder) / "results.md").read_text(), r"(?s)\| S1 \| -\S+ \+- \S+; \S+ s \(1\) \|.*\| C8 \| not run \|")
 
+    def test_small_versions_of_what_measures(self):
+        for script, words, table, needs in (
+                ("cluster-speed", ["--quick", "--bodies", "20", "--scenes", "settled", "--shapes", "cube:8"], "cluster-speed.csv", "bin/eccentra-dem"),
+                ("compare-peers", ["--quick", "--codes", "ours,stock", "--scenes", "drop", "--shapes", "cube 8"], "compare-peers.csv", "bin/eccentra-dem"),
+                ("closure-cost", ["--quick"], "closure-cost.csv", "tests/closures_benchmark"),
+                ("solver-cost", ["--quick", "--viscosity", "strainRate", "--pressure", "gamg,pcgGamg"], "cost.csv", "tests/openfoam_coupled_cost"),
+                ("link-cost", ["--quick", "--parts", "cost"], "coupled.csv", "tests/exchange_benchmark")):
+            if not (BUILD / needs).is_file():
+                continue
+            with self.subTest(script), tempfile.TemporaryDirectory() as folder:
+                said = run(script, *words, "--out", folder)
+                self.assertEqual(said.returncode, 0, said.stderr + said.stdout)
+                with open(pathlib.Path(folder) / table, newline="") as rows:
+                    found = list(csv.DictReader(rows))
+                self.assertTrue(found)
+                if script == "compare-peers":  # restitution: shared contacts deliver 0.9, parallel ones of a cube's face e^sqrt(4)
+                    ours, stock = (float(row["restitution_of_0.9"]) for row in found)
+                    self.assertAlmostEqual(ours, 0.9, delta=0.01)
+                    self.assertAlmostEqual(stock, 0.9 ** 2, delta=0.01)
+                if script == "solver-cost":
+                    self.assertEqual([row["pressure"] for row in found], ["gamg", "pcgGamg"])
+                    self.assertTrue(all(float(row["iterations"]) >= 1 for row in found))
+
     def test_bad_words(self):
         for script, words, says in (
                 ("accuracy-cost", ["--seeds", "0"], "--seeds is 0: give 1 to 10"),

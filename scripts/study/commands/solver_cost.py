@@ -20,7 +20,7 @@ def turn_job(chosen, pressure, viscosity, turn):
 
     def work(folder):
         case, seconds, spent = folder / "case", {}, 0.0
-        foam.set_up(case, "solver-cost", mesh=mesh, pressure=solver)
+        foam.set_up(case, "solver-cost", mesh=mesh, pressure=solver, settings={"runViscosity": viscosity, "runEnd": 0})
         run([chosen.build / "bin" / "annulusMesh"], case, folder / "annulusMesh.txt")
         for name, program in solvers.items():
             times = []
