@@ -4,6 +4,7 @@
 import dataclasses
 import json
 import math
+import os
 import pathlib
 import re
 
@@ -28,11 +29,13 @@ class Level:
 
 def fine_disk(path):
     """A disk like disk 48 with one ring more, 80 spheres: rings of 8, 16, 24 and 32, radius over outer ring as there."""
-    with open(path, "w") as out:
+    part = path.with_name(f"{path.name}.{os.getpid()}")  # another call may read the file now
+    with open(part, "w") as out:
         for ring in range(1, 5):
             for k in range(8 * ring):
                 angle = 2 * math.pi * k / (8 * ring)
                 out.write(f"{ring / 4 * math.cos(angle):.9f} {ring / 4 * math.sin(angle):.9f} 0 {DISK_RATIO}\n")
+    part.replace(path)
 
 
 def measured(build, shape, *words):

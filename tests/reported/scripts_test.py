@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What went wrong with the scripts: kept results of other inputs, numbers with a comma, a traceback where nothing can be written."""
+import concurrent.futures
 import csv
 import os
 import pathlib
@@ -97,17 +98,25 @@ class Reported(unittest.TestCase):
     def test_caches_of_studies(self):
         build, other = self.fake_build("one"), self.fake_build("other")
         (other / "lib" / "libmore.so").write_text("more")
-        for script, (base, changed, kept) in STUDIES.items():
+        calls = {}
+        for script, (base, changed, _) in STUDIES.items():
+            calls[script, None, "build"] = (base, other)
+            calls[script, None, "before"] = (base, build)
+            for option, value in changed.items():
+                start = STARTS.get((script, option), base)
+                calls[script, option, "before"] = (start, build)
+                calls[script, option, "after"] = (replaced(start, option, [str(other) if word == "OTHER" else word for word in value]), build)
+        different = {(script, tuple(words), where): None for (script, *_), (words, where) in calls.items()}
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            for call, keys in zip(different, pool.map(lambda call: self.keys(call[0], call[1], build=call[2]), different)):
+                different[call] = keys
+        keys_of = lambda *call: different[call[0], tuple(calls[call][0]), calls[call][1]]
+        for script, (_, changed, kept) in STUDIES.items():
             with self.subTest(script):
                 self.assertEqual(own_options(script), set(changed) | set(kept), "an option that this test does not know")
-                first = self.keys(script, base, build=build)
-                self.assertFalse(first & self.keys(script, base, build=other), "the same key with another build")
-                for option, value in changed.items():
-                    start = STARTS.get((script, option), base)
-                    before = first if start is base else self.keys(script, start, build=build)
-                    value = [str(other) if word == "OTHER" else word for word in value]
-                    after = self.keys(script, replaced(start, option, value), build=build)
-                    self.assertNotEqual(before, after, f"{option} {' '.join(value)}")
+                self.assertFalse(keys_of(script, None, "before") & keys_of(script, None, "build"), "the same key with another build")
+                for option in changed:
+                    self.assertNotEqual(keys_of(script, option, "before"), keys_of(script, option, "after"), option)
 
     def test_caches_know_their_files(self):
         """A change in a scene, or in what measures, gives another key. Part of the row above."""
