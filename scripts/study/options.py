@@ -68,9 +68,9 @@ class Parser(argparse.ArgumentParser):
             self.error(f"--jobs is {jobs}: give 1 or more")
         if hasattr(chosen, "quick"):
             chosen.quick = chosen.quick in (True, "yes")
-        check(chosen)
         chosen.build = chosen.build.resolve()
         need(chosen.build, *(program if "/" in program else f"bin/{program}" for program in (programs(chosen) if callable(programs) else programs)))
+        check(chosen)
         size = next((f"-{size}" for size in self.sizes if getattr(chosen, size, False)), "")
         results = chosen.out.resolve() if chosen.out else ROOT / "results"
         chosen.out = results if chosen.out else results / f"{self.name}{size}"

@@ -325,12 +325,14 @@ class Scripts(unittest.TestCase):
                 ("effects", ["--gradient", "1,5"], "--gradient is '1,5': a number in 1/s is needed"),
                 ("closure-cost", ["--repetitions", "x"], "'x' is not a whole number of at least 1"),
                 ("rheology-accuracy", ["--ratios", "a"], "--ratios: could not convert string to float: 'a'"),
-                ("solver-cost", ["--cells", "1 2"], "--cells is '1 2': give three whole numbers"),
+                ("solver-cost", ["--cells", "1 2"], "'1 2' is not three whole numbers such as"),
                 ("cluster-speed", ["--shapes", "cube"], "--shapes has 'cube': give FAMILY:N"),
                 ("compare-peers", ["--codes", "ours", "--bodies", "100000"], "--bodies is 100000, which do not fit the scene: give"),
                 ("demo", ["--scenes", "moon"], "invalid choice: 'moon'")):
             with self.subTest(f"{script} {' '.join(words)}"):
-                said = run(script, *words)
+                with tempfile.TemporaryDirectory() as folder:
+                    said = run(script, "--out", pathlib.Path(folder) / "results", *words)
+                    self.assertEqual(list(pathlib.Path(folder).iterdir()), [], "a refused call writes nothing")
                 self.assertNotEqual(said.returncode, 0)
                 self.assertIn(says, said.stderr)
                 self.assertNotIn("Traceback", said.stderr)

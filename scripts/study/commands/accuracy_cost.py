@@ -42,25 +42,25 @@ def main():
     def check(words):
         if words.seeds is not None and not 1 <= words.seeds <= len(section.SEEDS):
             parser.error(f"--seeds is {words.seeds}: give 1 to {len(section.SEEDS)}")
+        words.size = SIZES["quick" if words.quick else "full" if words.full else "standard"]
+        words.bodies = tuple(words.bodies or words.size.bodies)
+        known = {n for body in words.bodies for n in level_study.names_of(words.build, body)} if words.levels else {}
+        for level in words.levels or ():
+            if level not in known:
+                parser.error(f"--levels names '{level}': there are {', '.join(sorted(known))}")
 
     annulus = ("annulusMesh", "annulusFoam", "annulusReport")
     words = parser.settle(lambda w: ("eccentra-dem", "clusterShape") + (annulus if "section" in w.scenes or "methods" in w.parts else ()), check)
-    name = "quick" if words.quick else "full" if words.full else "standard"
-    chosen = SIZES[name]
+    chosen = words.size
     if words.inclinations:
         chosen = dataclasses.replace(chosen, points=tuple(p for p in chosen.points if p[0] in words.inclinations))
     if words.velocities:
         chosen = dataclasses.replace(chosen, points=tuple(p for p in chosen.points if p[1] in words.velocities))
-    bodies = tuple(words.bodies or chosen.bodies)
-    for level in words.levels or ():
-        known = sorted({n for body in bodies for n in level_study.names_of(words.build, body)})
-        if level not in known:
-            parser.error(f"--levels names '{level}': there are {', '.join(known)}")
 
     failed, page = [], []
     parts = []
     if "levels" in words.parts:
-        parts.append(level_study.Study(words.store, words.build, chosen, bodies, words.scenes, words.levels, words.seeds or chosen.seeds,
+        parts.append(level_study.Study(words.store, words.build, chosen, words.bodies, words.scenes, words.levels, words.seeds or chosen.seeds,
                                        words.out, words.retime))
     if "methods" in words.parts:
         parts.append(method_study.Study(words.store, words.build, chosen, words.out))

@@ -50,8 +50,9 @@ def main():
             targets = [word for name in ("eccentra", "annulusMesh", "annulusFoam", "annulusReport") for word in ("--target", name)]
             if subprocess.run([ROOT / "scripts" / "setup", *targets], check=False).returncode:
                 raise programs.Failure("the setup failed: see above")
+        programs.need(chosen.build, "bin/annulusFoam", "bin/annulusMesh", "bin/annulusReport")
 
-    chosen = parser.settle(("annulusFoam", "annulusMesh", "annulusReport"), check)
+    chosen = parser.settle((), check)
     jobs = {name: scene_job(chosen.build, name, chosen.quick) for name in chosen.scenes}
     found = chosen.store.run_all("demo", jobs.values())
     if chosen.plan:

@@ -53,14 +53,18 @@ def main():
     parser.add_argument("--levels", nargs="+", metavar="NAME", help="of S1, C8, C64, D48 (default: those of the study)")
     parser.add_argument("--fillings", nargs="+", type=float, metavar="SHARE", help="of the bodies (default: those of the study: 0.1, 0.5, 1)")
     parser.add_argument("--ranks", nargs="+", type=int, metavar="N", help="1 or 2 (default: those of the study)")
-    words = parser.settle(("eccentra-dem", "annulusMesh", "annulusFoam", "clusterShape"))
+
+    def check(words):
+        everything = words.plan_of = SIZES["quick" if words.quick else "standard"]
+        for k, (option, wanted) in enumerate((("--levels", words.levels), ("--fillings", words.fillings), ("--ranks", words.ranks))):
+            for value in wanted or ():
+                if value not in (row[k] for row in everything):
+                    parser.error(f"{option} names '{value}': there are {', '.join(str(v) for v in dict.fromkeys(row[k] for row in everything))}")
+            words.plan_of = [row for row in words.plan_of if not wanted or row[k] in wanted]
+
+    words = parser.settle(("eccentra-dem", "annulusMesh", "annulusFoam", "clusterShape"), check)
     known = {level.name: level for body in ("cube", "disk") for level in levels.levels_of(body, {}, "")}
-    everything = plan = SIZES["quick" if words.quick else "standard"]
-    for k, (option, wanted) in enumerate((("--levels", words.levels), ("--fillings", words.fillings), ("--ranks", words.ranks))):
-        for value in wanted or ():
-            if value not in (row[k] for row in everything):
-                parser.error(f"{option} names '{value}': there are {', '.join(str(v) for v in dict.fromkeys(row[k] for row in everything))}")
-        plan = [row for row in plan if not wanted or row[k] in wanted]
+    plan = words.plan_of
     chosen = list(dict.fromkeys(n for n, _, _ in plan))
     steps = {n: levels.step_job(words.build, known[n], RESTITUTION) for n in chosen}
     found = words.store.run_all("time steps", steps.values())

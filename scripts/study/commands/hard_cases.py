@@ -60,7 +60,7 @@ def main():
             print("\n".join(case.id for case in chosen.cases))
             sys.exit(0)
 
-    chosen = parser.settle(("eccentra-dem",), check)
+    chosen = parser.settle(lambda c: () if c.list else ("eccentra-dem",), check)
     chosen.store.any_build = True  # the key of a case knows the programs that it runs
     jobs = {case.id: job_of(case, pathlib.Path(chosen.build) / "bin" / "eccentra-dem") for group in chosen.groups for case in group.cases}
     names = [case.id for case in chosen.cases]

@@ -85,14 +85,12 @@ def main():
     def check(words):
         if words.rungs and not (0 < words.rungs[0] and words.rungs[-1] <= 0.5 and words.rungs == sorted(set(words.rungs))):
             parser.error(f"--rungs is {' '.join(f'{r:g}' for r in words.rungs)}: give rising shares of the volume, more than 0 and at most 0.5")
-
-    words = parser.settle(("eccentra-dem", "clusterShape", "annulusMesh", "annulusFoam", "annulusReport"), check)
-    measured = None
-    if words.measured:
         try:
-            measured = loop_data.read(words.measured)
+            words.loop = loop_data.read(words.measured) if words.measured else None
         except (OSError, ValueError) as error:
             parser.error(f"--measured {words.measured}: {error}")
+
+    words = parser.settle(("eccentra-dem", "clusterShape", "annulusMesh", "annulusFoam", "annulusReport"), check)
     name = "quick" if words.quick else "full" if words.full else "standard"
     size, plan = SIZES[name]
     if words.velocities:
@@ -135,8 +133,8 @@ def main():
             bad, lines = figure_9(words.store, words.build, size, critical, drawn, words.out)
             failed += bad
             page += lines
-        if measured and not words.plan:
-            page += loop_data.compare(measured, climbed.values, drawn)
+        if words.loop and not words.plan:
+            page += loop_data.compare(words.loop, climbed.values, drawn)
     if words.plan:
         return 0
     settings = (f"fillings {', '.join(f'{100 * r:g} %' for r in size.rungs)}, {size.length} m, cells {size.cells.replace(' ', 'x')}, "

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cost per step of annulusFoam beside stock pimpleFoam: same mesh, rheology, schemes and linear solvers, run in turn."""
+import argparse
 import re
 import statistics
 
@@ -38,13 +39,19 @@ def turn_job(chosen, pressure, viscosity, turn):
     return runs.Job(f"{pressure}, {viscosity}, turn {turn + 1}", inputs, work, 30)
 
 
+def three_numbers(text):
+    if not re.fullmatch(r"[1-9]\d* [1-9]\d* [1-9]\d*", " ".join(text.split())):
+        raise argparse.ArgumentTypeError(f"'{text}' is not three whole numbers such as '12 48 24'")
+    return " ".join(text.split())
+
+
 def main():
     parser = options.Parser(
         "solver-cost", "Runs both solvers in turn on a periodic eccentric annulus with a turning pipe (single phase): CPU seconds per step and their "
         "ratio, once with the viscosity averaged between cells as stock does, once with that of each face; `coupled` is the averaged flow with all "
         "fields of the particles (alpha = 0.9). The whole hole of the paper, 139,968 cells: --cells '12 48 243' --length 12 --steps 6 --turns 1 "
         "--pressure gamg pcg pcgGamg gamgDefault", "960 cells, 5 steps, one turn", at_once=1)
-    parser.add_argument("--cells", metavar="'RADIAL AROUND AXIAL'", help="default: 12 48 24")
+    parser.add_argument("--cells", type=three_numbers, metavar="'RADIAL AROUND AXIAL'", help="default: 12 48 24")
     parser.add_argument("--length", type=float, default=0.3, metavar="METRES", help="default: 0.3")
     parser.add_argument("--steps", type=options.at_least_one, metavar="N", help="default: 40")
     parser.add_argument("--turns", type=options.at_least_one, metavar="N", help="default: 3")
@@ -53,9 +60,7 @@ def main():
     parser.add_argument("--viscosity", action=options.Words, choices=VISCOSITY, default=VISCOSITY, help="of faces (default: both)")
 
     def check(chosen):
-        chosen.cells = " ".join((chosen.cells or ("4 24 10" if chosen.quick else "12 48 24")).split())
-        if not re.fullmatch(r"[1-9]\d* [1-9]\d* [1-9]\d*", chosen.cells):
-            parser.error(f"--cells is '{chosen.cells}': give three whole numbers such as '12 48 24'")
+        chosen.cells = chosen.cells or ("4 24 10" if chosen.quick else "12 48 24")
         if not chosen.length > 0:
             parser.error(f"--length is {chosen.length:g}: give a number above 0")
         chosen.steps, chosen.turns = chosen.steps or (5 if chosen.quick else 40), chosen.turns or (1 if chosen.quick else 3)
