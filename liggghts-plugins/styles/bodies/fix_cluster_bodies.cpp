@@ -142,6 +142,8 @@ void FixClusterBodies::omega_from_momentum(int i) {
 }
 
 void FixClusterBodies::setup_pre_force(int) {
+  last_forces_.compare_fixes(*lmp);
+  stepped_ = false;
   all_round_ = true;
   for (int id = 0; id < shapes_.size(); ++id)
     all_round_ = all_round_ && shapes_.surface(id).single_at_centre;
@@ -156,6 +158,12 @@ void FixClusterBodies::pre_force(int) {
     bring_to_ghosts();
   // Others than nve/cluster may turn bodies when lists are made anew (insertion), but not in between.
   update_rotations(send_shapes_ ? 0 : atom->nlocal, atom->nlocal + atom->nghost);
+}
+
+void FixClusterBodies::post_run() {
+  if (stepped_)
+    last_forces_.keep(*lmp, *this);
+  stepped_ = false;
 }
 
 void FixClusterBodies::bring_to_ghosts() {
@@ -173,27 +181,18 @@ void FixClusterBodies::grow_arrays(int nmax) {
   memory->grow(data_, nmax, static_cast<int>(columns), "cluster_bodies:data");
   array_atom = data_;
   rotation_.resize(9 * static_cast<std::size_t>(nmax), 0.);
-  if (resuming_)
-    resumed_.resize(nmax);
+  last_forces_.grow(nmax);
 }
 
 void FixClusterBodies::copy_arrays(int i, int j, int) {
   std::copy(data_[i], data_[i] + columns, data_[j]);
   std::copy(rotation(i), rotation(i) + 9, rotation(j));
-  if (resuming_)
-    resumed_[j] = resumed_[i];
+  last_forces_.copy(i, j);
 }
 
 void FixClusterBodies::resume_forces() {
-  if (!resuming_)
-    return;
-  for (int i = 0; i < atom->nlocal; ++i)
-    for (int k = 0; k < 3; ++k) {
-      atom->f[i][k] = resumed_[i][k];
-      atom->torque[i][k] = resumed_[i][3 + k];
-    }
-  resuming_ = false;
-  resumed_.clear();
+  stepped_ = true;
+  last_forces_.put_back(*lmp, *this);
 }
 
 void FixClusterBodies::set_arrays(int i) {
@@ -201,28 +200,27 @@ void FixClusterBodies::set_arrays(int i) {
   data_[i][0] = 1;
   data_[i][shape_column] = plain_sphere;
   contact::rotation_matrix(data_[i], rotation(i));
+  last_forces_.forget(i);
 }
 
 int FixClusterBodies::pack_exchange(int i, double* buf) {
   std::copy(data_[i], data_[i] + columns, buf);
-  if (!resuming_)
-    return columns;
-  std::copy(resumed_[i].begin(), resumed_[i].end(), buf + columns);
-  return columns + 6;
+  return columns + last_forces_.pack(i, buf + columns);
 }
 
 int FixClusterBodies::unpack_exchange(int i, double* buf) {
   std::copy(buf, buf + columns, data_[i]);
   contact::rotation_matrix(data_[i], rotation(i));
-  if (!resuming_)
-    return columns;
-  std::copy(buf + columns, buf + columns + 6, resumed_[i].begin());
-  return columns + 6;
+  return columns + last_forces_.unpack(i, buf + columns);
 }
 
 int FixClusterBodies::pack_restart(int i, double* buf) {
   buf[0] = size_restart(i);
   double* next = std::copy(data_[i], data_[i] + columns, buf + 1);
+  if (last_forces_.pending()) {
+    std::copy(last_forces_.row(i), last_forces_.row(i) + LastForces::kept_values, next);
+    return size_restart(i);
+  }
   next = std::copy(atom->f[i], atom->f[i] + 3, next);
   std::copy(atom->torque[i], atom->torque[i] + 3, next);
   return size_restart(i);
@@ -236,15 +234,15 @@ void FixClusterBodies::unpack_restart(int i, int nth) {
   const double* record = extra + m + 1;
   std::copy(record, record + columns, data_[i]);
   contact::rotation_matrix(data_[i], rotation(i));
-  if (resuming_)
-    std::copy(record + columns, record + columns + 6, resumed_[i].begin());
+  if (last_forces_.pending())
+    last_forces_.set(*lmp, *this, i, record + columns);
 }
 
 int FixClusterBodies::size_restart(int) {
-  return columns + 1 + 6;
+  return 1 + columns + LastForces::kept_values;
 }
 int FixClusterBodies::maxsize_restart() {
-  return columns + 1 + 6;
+  return 1 + columns + LastForces::kept_values;
 }
 
 void FixClusterBodies::write_restart(FILE* fp) {
@@ -252,8 +250,8 @@ void FixClusterBodies::write_restart(FILE* fp) {
     return;
   ByteWriter bytes;
   bytes.put(restart_mark);
-  // Within a run, the run goes on with its forces; between runs, the next one computes them anew, restarted or not.
-  bytes.put(update->whichflag != 0);
+  // Forces with which a run goes on; before the first run there are none.
+  bytes.put(update->whichflag != 0 || last_forces_.pending());
   bytes.put(shapes_.size());
   for (int id = 0; id < shapes_.size(); ++id) {
     const shape::ClusterShape& shape = shapes_[id];
@@ -278,9 +276,8 @@ void FixClusterBodies::restart(char* buf) {
   ByteReader bytes(buf);
   if (const std::string problem = restart_problem(bytes.get<int>(), "clusters"); !problem.empty())
     error->all(FLERR, problem.c_str());
-  resuming_ = bytes.get<bool>();
-  if (resuming_)
-    resumed_.assign(atom->nmax, {});
+  if (bytes.get<bool>())
+    last_forces_.expect(atom->nmax);
   const int count = bytes.get<int>();
   for (int id = 0; id < count; ++id) {
     std::string name(bytes.get<int>(), ' ');

@@ -7,6 +7,7 @@
 #include "contact/surface_spheres.h"
 #include "shape/cluster_shape.h"
 #include "styles/bodies/insertion_overlap.h"
+#include "styles/bodies/last_forces.h"
 
 #include <mpi.h>
 
@@ -68,6 +69,7 @@ class FixClusterBodies : public LAMMPS_NS::Fix {
   const double* quaternion(int i) const { return data_[i]; }
   /// Angular momentum about the centre of mass of local atom i, world frame [kg m2/s]. Atom::omega follows from it.
   double* angular_momentum(int i) { return data_[i] + momentum_column; }
+  const double* angular_momentum(int i) const { return data_[i] + momentum_column; }
   /// Row-major matrix, body to world, of local or ghost atom i (valid from pre_force on; nve/cluster keeps that of
   /// local atoms up to date). Round bodies have no use for it: theirs is some rotation.
   const double* rotation(int i) const { return rotation_.data() + 9 * static_cast<std::size_t>(i); }
@@ -87,9 +89,8 @@ class FixClusterBodies : public LAMMPS_NS::Fix {
   /// Sets Atom::omega of local atom i from the angular momentum and rotation(i).
   void omega_from_momentum(int i);
 
-  /// After a restart: the forces and torques with which the run that wrote the file would have gone on. The set-up of a
-  /// run computes them anew from whole-step velocities, which is not the same where contacts are damped. Does nothing
-  /// but once.
+  /// The first step of a run: goes on with the forces and torques of the last step of the run before, or of the run
+  /// that wrote the restart file, where nothing has changed in between.
   void resume_forces();
 
   int setmask() override;
@@ -97,6 +98,7 @@ class FixClusterBodies : public LAMMPS_NS::Fix {
   void post_create() override;
   void setup_pre_force(int vflag) override;
   void pre_force(int vflag) override;
+  void post_run() override;
   void grow_arrays(int nmax) override;
   void copy_arrays(int i, int j, int delflag) override;
   void set_arrays(int i) override;
@@ -123,9 +125,9 @@ class FixClusterBodies : public LAMMPS_NS::Fix {
 
   ShapeTable shapes_;
   InsertionOverlap insertion_{*this};
-  double** data_ = nullptr;                    ///< [nmax][columns]
-  std::vector<std::array<double, 6>> resumed_; ///< force and torque from the restart file, while resuming_
-  bool resuming_ = false;
+  double** data_ = nullptr; ///< [nmax][columns]
+  LastForces last_forces_;
+  bool stepped_ = false; ///< this run has made a step
   std::vector<double> rotation_;
   bool send_shapes_ = true; ///< ghosts are new: they need their shape id, too
   bool all_round_ = false;  ///< nobody asks for ghosts' orientation
