@@ -14,6 +14,9 @@
 #include "math_extra_liggghts.h"
 #include "memory.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
@@ -44,77 +47,162 @@ struct StockKeyword {
   const char* name;
   int arguments;
 };
-constexpr StockKeyword stock_keywords[] = {{"atom_type", 2},    {"region", 2},  {"region_variable", 2},
-                                           {"volume_limit", 2}, {"density", 3}, {"additional_group", 2}};
+constexpr StockKeyword stock_keywords[] = {{"atom_type", 2}, {"volume_limit", 2}, {"additional_group", 2}};
+
+/// Keywords of stock's templates that mean nothing for a cluster, and what to write instead.
+struct OtherKeyword {
+  const char* name;
+  const char* remedy;
+};
+constexpr OtherKeyword other_keywords[] = {
+    {"radius", "write `diameter VALUE`, that of the sphere of equal volume"},
+    {"relative", "sizes are lengths in m: leave it out"},
+    {"region", "stock insertion never looks at a template's region: give the region to fix insert/*"},
+    {"region_variable", "stock insertion never looks at a template's region: give the region to fix insert/*"},
+    {"nspheres", "the shape counts its spheres itself: leave it out"},
+    {"ntry", "mass and inertia are exact and need no tries: leave it out"},
+    {"spheres", "write `shape file NAME.clump`"},
+    {"spheres_different_types", "a body has one material: write `shape file NAME.clump` and atom_type"},
+    {"scale", "write `shape file NAME.clump scale VALUE`, or a diameter"},
+    {"bonded", "the spheres of a cluster are rigidly joined: leave it out"},
+    {"type", "shapes are numbered by themselves: leave it out, or write atom_type for the material"},
+    {"mass", "the mass is density times the volume of the shape: write `density constant VALUE`"},
+    {"inertia_tensor", "inertia follows from the shape: leave it out"},
+    {"use_volume", "mass, volume and density belong together: leave it out"},
+    {"use_density", "mass, volume and density belong together: leave it out"},
+    {"fflag", "all directions of motion are free: hold bodies with fix freeze, or leave it out"},
+    {"tflag", "all directions of rotation are free: leave it out"},
+};
 
 bool is_keyword(const std::string& word) {
   for (const StockKeyword& keyword : stock_keywords)
     if (word == keyword.name)
       return true;
-  return word == "shape" || word == "diameter" || word == "orientation";
+  for (const OtherKeyword& keyword : other_keywords)
+    if (word == keyword.name && word != "scale") // a word of `shape file`, too
+      return true;
+  return word == "shape" || word == "diameter" || word == "orientation" || word == "density";
+}
+
+bool is_number(const char* word, double& value) {
+  char* end = nullptr;
+  value = std::strtod(word, &end);
+  return end != word && !*end && std::isfinite(value);
 }
 
 } // namespace
 
+double DensityDistribution::draw(RanPark& random) const {
+  if (kind == Kind::uniform)
+    return mean + width * (2 * random.uniform() - 1);
+  double deviation = 0;
+  if (kind == Kind::gaussian)
+    do
+      deviation = random.gaussian();
+    while (std::fabs(deviation) > 3);
+  return mean + width * deviation;
+}
+
+/// Reads the arguments after `density`, which stands at `at`; returns the place of the next keyword.
+int TemplateArguments::read_density(int narg, char** arg, int at, const Refuse& refuse) {
+  const std::string expected = "expected constant VALUE, uniform LEAST MOST, or gaussian MEAN DEVIATION, in kg/m3";
+  const std::string kind = at + 1 < narg ? arg[at + 1] : "";
+  if (kind != "constant" && kind != "uniform" && kind != "gaussian")
+    refuse("density '" + kind + "' is not a distribution; " + expected);
+  const int count = kind == "constant" ? 1 : 2;
+  double value[2] = {0, 0};
+  for (int k = 0; k < count; ++k) {
+    const char* word = at + 2 + k < narg ? arg[at + 2 + k] : "";
+    if (!is_number(word, value[k]) || !(value[k] > 0))
+      refuse("density " + kind + " '" + word + "' is not a number greater than 0; " + expected);
+  }
+  density.mean = value[0];
+  if (kind == "uniform") {
+    if (value[1] < value[0])
+      refuse("density uniform '" + std::string(arg[at + 3]) + "' is less than '" + arg[at + 2] +
+             "'; expected the least density first");
+    density = {DensityDistribution::Kind::uniform, (value[0] + value[1]) / 2, (value[1] - value[0]) / 2};
+  } else if (kind == "gaussian") {
+    if (value[0] <= 3 * value[1])
+      refuse("density gaussian '" + std::string(arg[at + 3]) +
+             "' is more than a third of the mean: densities are drawn within three deviations of the mean and must "
+             "stay above 0; expected a smaller deviation");
+    density = {DensityDistribution::Kind::gaussian, value[0], value[1]};
+  }
+  char mean[32];
+  std::snprintf(mean, sizeof mean, "%.17g", density.mean);
+  for (const char* word : {"density", "constant", static_cast<const char*>(mean)})
+    stock.push_back(own_.emplace_back(word).data());
+  return at + 2 + count;
+}
+
 TemplateArguments::TemplateArguments(LAMMPS* lmp, int narg, char** arg) {
   const char* id = arg[0];
+  const Refuse refuse = [lmp, id](const std::string& sentence) { fail(lmp, id, sentence); };
   if (narg < 4)
-    fail(lmp, id,
-         "needs a seed, a density and a shape: ... SEED atom_type 1 density constant 2619 shape cube 64 "
-         "diameter 6.35e-3");
+    refuse("needs a seed, a density and a shape: ... SEED atom_type 1 density constant 2619 shape cube 64 "
+           "diameter 6.35e-3");
   stock.assign(arg, arg + 4);
   bool have_density = false;
   for (int i = 4; i < narg;) {
     const std::string word = arg[i];
     int taken = 0;
     for (const StockKeyword& keyword : stock_keywords)
-      if (word == keyword.name) {
+      if (word == keyword.name)
         taken = keyword.arguments;
-        have_density = have_density || word == "density";
-      }
+    for (const OtherKeyword& keyword : other_keywords)
+      if (word == keyword.name)
+        refuse("keyword '" + word + "' of stock's templates is not one of clusters; " + keyword.remedy);
     if (taken > 0) {
       if (i + taken > narg)
-        fail(lmp, id, "keyword '" + word + "' needs " + std::to_string(taken - 1) + " value(s)");
+        refuse("keyword '" + word + "' needs " + std::to_string(taken - 1) + " value(s)");
       stock.insert(stock.end(), arg + i, arg + i + taken);
       i += taken;
+    } else if (word == "density") {
+      if (have_density)
+        refuse("'density' stands twice");
+      have_density = true;
+      i = read_density(narg, arg, i, refuse);
     } else if (word == "shape") {
       if (!shape_keywords.empty())
-        fail(lmp, id, "'shape' stands twice");
+        refuse("'shape' stands twice");
       for (++i; i < narg && !is_keyword(arg[i]); ++i)
         shape_keywords.emplace_back(arg[i]);
       if (shape_keywords.empty())
-        fail(lmp, id, "nothing follows 'shape': give a shape, such as cube 64 or file NAME.clump");
-    } else if (word == "diameter" || word == "orientation") {
-      if (i + 1 >= narg)
-        fail(lmp, id, "keyword '" + word + "' needs a value");
-      const std::string value = arg[i + 1];
-      if (word == "diameter") {
-        char* end = nullptr;
-        diameter = std::strtod(value.c_str(), &end);
-        if (*end || !(diameter > 0) || !std::isfinite(diameter))
-          fail(lmp, id, "diameter '" + value + "' is not a length greater than 0 m");
-      } else if (value == "random" || value == "given") {
-        random_orientation = value == "random";
-      } else {
-        fail(lmp, id, "orientation '" + value + "' is unknown: write random (the default) or given");
-      }
+        refuse("nothing follows 'shape': give a shape, such as cube 64 or file NAME.clump");
+    } else if (word == "diameter") {
+      if (i + 1 < narg && (!std::strcmp(arg[i + 1], "uniform") || !std::strcmp(arg[i + 1], "gaussian")))
+        refuse("diameter '" + std::string(arg[i + 1]) +
+               "' is not a length: all bodies of a template have one size; expected one particletemplate/cluster per "
+               "size, mixed by particledistribution/discrete");
+      const bool constant = i + 1 < narg && !std::strcmp(arg[i + 1], "constant"); // as stock writes a radius
+      const int at = i + (constant ? 2 : 1);
+      if (at >= narg)
+        refuse("keyword 'diameter' needs a value");
+      if (!is_number(arg[at], diameter) || !(diameter > 0))
+        refuse("diameter '" + std::string(arg[at]) + "' is not a length greater than 0 m");
+      i = at + 1;
+    } else if (word == "orientation") {
+      const std::string value = i + 1 < narg ? arg[i + 1] : "";
+      if (value != "random" && value != "given")
+        refuse("orientation '" + value +
+               "' is unknown: write random or given, or leave it out for what `orientation` of the fix insert/* says");
+      orientation = value == "random" ? TemplateOrientation::random : TemplateOrientation::given;
       i += 2;
     } else {
-      fail(lmp, id,
-           "unknown keyword '" + word +
-               "': known are atom_type, region, density, volume_limit, "
-               "additional_group, shape, diameter and orientation");
+      refuse("unknown keyword '" + word +
+             "': known are atom_type, density, volume_limit, additional_group, shape, diameter and orientation");
     }
   }
   if (!have_density)
-    fail(lmp, id, "no density: write `density constant VALUE`, that of the solid in kg/m3");
+    refuse("no density: write `density constant VALUE`, that of the solid in kg/m3");
   if (shape_keywords.empty())
-    fail(lmp, id, "no shape: write for example `shape cube 64`");
+    refuse("no shape: write for example `shape cube 64`");
 }
 
 FixParticletemplateCluster::FixParticletemplateCluster(LAMMPS* lmp, const TemplateArguments& arguments)
     : FixTemplateSphere(lmp, static_cast<int>(arguments.stock.size()), const_cast<char**>(arguments.stock.data())),
-      density_(expectancy(pdf_density)), random_orientation_(arguments.random_orientation) {
+      density_(arguments.density), orientation_(arguments.orientation) {
   std::size_t used = 0;
   try {
     shape::Notes notes;
@@ -132,7 +220,7 @@ FixParticletemplateCluster::FixParticletemplateCluster(LAMMPS* lmp, const Templa
     fail(lmp, id, problem.what());
   }
   volume_expect = volume_;
-  mass_expect = density_ * volume_;
+  mass_expect = density_.mean * volume_;
   // FixTemplateSphere made a sphere for insertion one by one; ours is a cluster.
   delete pti;
   pti = new ClusterToInsert(lmp, nullptr);
@@ -153,15 +241,21 @@ void FixParticletemplateCluster::fill(ParticleToInsert& particle) {
   cluster.shape_id = shape_id_;
   cluster.atom_type = atom_type;
   cluster.radius_ins[0] = cluster.r_bound_ins = expectancy(pdf_radius);
-  cluster.density_ins = density_;
+  cluster.density_ins = density_.draw(*random_insertion);
   cluster.volume_ins = volume_;
-  cluster.mass_ins = density_ * volume_;
+  cluster.mass_ins = cluster.density_ins * volume_;
   for (int k = 0; k < 3; ++k)
     cluster.x_ins[0][k] = cluster.v_ins[k] = cluster.omega_ins[k] = 0;
-  if (!random_orientation_)
+  constexpr double upright[4] = {1, 0, 0, 0};
+  std::copy(upright, upright + 4, cluster.own_orientation);
+  cluster.orientations = nullptr;
+  const InsertionOrientation insertion = FixClusterBodies::require(lmp).insertion().orientation;
+  if (orientation_ == TemplateOrientation::given ||
+      (orientation_ == TemplateOrientation::as_inserted && insertion == InsertionOrientation::fixed))
     return;
   cluster.orientations = random_insertion;
-  MathExtraLiggghts::random_unit_quat(random_insertion, cluster.own_orientation);
+  if (orientation_ == TemplateOrientation::random || insertion == InsertionOrientation::not_written)
+    MathExtraLiggghts::random_unit_quat(random_insertion, cluster.own_orientation);
 }
 
 void FixParticletemplateCluster::randomize_single() {

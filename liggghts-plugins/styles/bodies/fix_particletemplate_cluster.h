@@ -9,11 +9,25 @@
 
 #include "fix_template_sphere.h"
 
+#include <functional>
+#include <list>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace eccentra::styles {
+
+/// Whose orientation an inserted body gets. `as_inserted`: that of `orientation` of the fix insert/*, and a random one
+/// where that keyword is not written.
+enum class TemplateOrientation { as_inserted, random, given };
+
+/// Density of the solid [kg/m3]: constant, or drawn for each body.
+struct DensityDistribution {
+  enum class Kind { constant, uniform, gaussian } kind = Kind::constant;
+  double mean = 0;
+  double width = 0; ///< uniform: half the range; gaussian: the standard deviation, cut off at three of them
+  double draw(LAMMPS_NS::RanPark& random) const;
+};
 
 /// The arguments of the command: those of stock templates, and ours.
 struct TemplateArguments {
@@ -21,7 +35,13 @@ struct TemplateArguments {
   std::vector<char*> stock;                ///< what FixTemplateSphere reads
   std::vector<std::string> shape_keywords; ///< as make_shape takes them
   double diameter = 0;                     ///< of the sphere of equal volume [m]; 0: as the file says
-  bool random_orientation = true;
+  DensityDistribution density;
+  TemplateOrientation orientation = TemplateOrientation::as_inserted;
+
+ private:
+  using Refuse = std::function<void(const std::string&)>;
+  int read_density(int narg, char** arg, int at, const Refuse& refuse);
+  std::list<std::string> own_; ///< arguments of `stock` that the user did not type
 };
 
 /// Fix style "particletemplate/cluster".
@@ -38,16 +58,17 @@ class FixParticletemplateCluster : public LAMMPS_NS::FixTemplateSphere {
   void direct_set_ptlist(int i, const void* data, int distribution_groupbit, int distribution_order) override;
 
   int shape_id() const { return shape_id_; }
-  double density() const { return density_; } ///< of the solid [kg/m3]
+  double density() const { return density_.mean; } ///< of the solid [kg/m3]
+  TemplateOrientation orientation() const { return orientation_; }
 
  private:
   void fill(LAMMPS_NS::ParticleToInsert& particle);
 
   std::unique_ptr<shape::ClusterShape> shape_; ///< until the table takes it
   int shape_id_ = -1;
-  double density_;
+  DensityDistribution density_;
   double volume_ = 0;
-  bool random_orientation_;
+  TemplateOrientation orientation_;
 };
 
 } // namespace eccentra::styles

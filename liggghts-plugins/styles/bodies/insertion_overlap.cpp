@@ -8,6 +8,7 @@
 
 #include "atom.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace {
@@ -63,6 +64,16 @@ bool bodies_touch(const PlacedBody& a, const PlacedBody& b, const Eigen::Vector3
     }
   }
   return false;
+}
+
+double deepest_overlap(const PlacedBody& a, const PlacedBody& b, const Eigen::Vector3d& offset) {
+  double deepest = 0;
+  for (const shape::Sphere& s : spheres_within(a, a.turn.transpose() * offset, b.bounding_radius))
+    for (const shape::Sphere& t : spheres_within(b, b.turn.transpose() * -offset, a.bounding_radius)) {
+      const double distance = (a.turn * s.centre - offset - b.turn * t.centre).norm();
+      deepest = std::max(deepest, (s.radius + t.radius - distance) / std::min(s.radius, t.radius));
+    }
+  return deepest;
 }
 
 InsertionOverlap::Place::Place(const double* x) {

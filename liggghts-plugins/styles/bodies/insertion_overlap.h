@@ -19,6 +19,9 @@ namespace eccentra::styles {
 
 class FixClusterBodies;
 
+/// What `orientation` of the fix insert/* at work says: nothing, random, or the same for all (template, constant).
+enum class InsertionOrientation { not_written, random, fixed };
+
 /// A body at its place. All its sub-spheres count, inner ones too: nothing may be put inside a body.
 struct PlacedBody {
   const std::vector<shape::Sphere>* spheres; ///< body frame [m]
@@ -29,12 +32,17 @@ struct PlacedBody {
 /// True if any sub-sphere of A touches one of B, whose centre is at `offset` from A's [m], world frame.
 bool bodies_touch(const PlacedBody& a, const PlacedBody& b, const Eigen::Vector3d& offset);
 
+/// The deepest overlap of their sub-spheres, as part of the smaller one's radius; 0 where none touches.
+double deepest_overlap(const PlacedBody& a, const PlacedBody& b, const Eigen::Vector3d& offset);
+
 /// Bodies that a new one must not run into. Stock's list of what is near an insertion knows positions and bounding
 /// radii alone; it serves as the broad phase, and this looks up what stands at a position: a cluster that was there
 /// before, one that has just been placed, or else a plain sphere.
 class InsertionOverlap {
  public:
   explicit InsertionOverlap(FixClusterBodies& bodies) : bodies_(bodies) {}
+
+  InsertionOrientation orientation = InsertionOrientation::not_written; ///< of the fix insert/* at work
 
   /// A new round of insertion begins: forgets what was placed, and takes the atoms of this rank (ghosts as well) anew
   /// at the next question.

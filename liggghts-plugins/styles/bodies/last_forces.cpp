@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace eccentra::styles {
@@ -30,7 +31,8 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 std::vector<std::string> acting_fixes(const Modify& modify, bool& anew) {
   std::vector<std::string> found;
   for (int f = 0; f < modify.nfix; ++f) {
-    if (!(modify.fmask[f] & (FixConst::PRE_FORCE | FixConst::POST_FORCE)))
+    if (!(modify.fmask[f] & (FixConst::PRE_FORCE | FixConst::POST_FORCE)) ||
+        std::strncmp(modify.fix[f]->style, "insert/", 7) == 0)
       continue;
     found.push_back(std::string(modify.fix[f]->id) + " " + modify.fix[f]->style);
     anew = anew || modify.fix[f]->just_created;
