@@ -6,6 +6,7 @@
 
 #include "styles/bodies/fix_sleep_cluster.h"
 #include "styles/bodies/restart_version.h"
+#include "styles/bodies/stock_contact_words.h"
 #include "styles/entry/style_registry.h"
 
 #include "atom.h"
@@ -27,6 +28,9 @@ using namespace LAMMPS_NS;
 namespace {
 
 constexpr const char* style = "pair_style gran/cluster";
+
+/// Beside the bit of tangential_damping in restart files.
+constexpr int kFrictionless = 2;
 
 Pair* create_pair(LAMMPS* lmp) {
   return new PairGranCluster(lmp);
@@ -62,7 +66,7 @@ PairGranCluster::~PairGranCluster() {
 void PairGranCluster::settings(int narg, char** arg) {
   const Choice choices[] = {
       {"model", {"hertz"}},
-      {"tangential", {"history"}},
+      {"tangential", {"off", "history"}},
       {"rolling_friction", {"off"}},
       {"cohesion", {"off"}},
       {"surface", {"default"}},
@@ -71,10 +75,16 @@ void PairGranCluster::settings(int narg, char** arg) {
       {"damping", {"stock", "paper"}},
   };
   arguments_ = ClusterContactKeywords();
+  arguments_.tangential = false; // as in stock, where no tangential model is written
   bool have_model = false;
   for (int i = 0; i < narg; i += 2) {
     const std::string keyword = arg[i];
     const Choice* choice = nullptr;
+    if (stock_contact_words().count(keyword)) {
+      if (const std::string refused = refused_stock_word(keyword, i + 1 < narg ? arg[i + 1] : ""); !refused.empty())
+        error->all(FLERR, (std::string(style) + ": " + refused).c_str());
+      continue;
+    }
     for (const Choice& c : choices)
       if (keyword == c.keyword)
         choice = &c;
@@ -100,9 +110,13 @@ void PairGranCluster::settings(int narg, char** arg) {
       arguments_.sharing = value == "shared" ? ContactSharing::shared : ContactSharing::parallel;
     if (keyword == "damping")
       arguments_.damping = value == "stock" ? contact::DampingLaw::stock : contact::DampingLaw::paper;
+    if (keyword == "tangential")
+      arguments_.tangential = value != "off";
     if (keyword == "tangential_damping")
       arguments_.tangential_damping = value == "on";
   }
+  if (!arguments_.tangential)
+    arguments_.tangential_damping = false;
   if (!have_model)
     error->all(
         FLERR,
@@ -122,11 +136,15 @@ void PairGranCluster::init_granular() {
   registry.registerProperty("Yeff", &MODEL_PARAMS::createYeff, style);
   registry.registerProperty("Geff", &MODEL_PARAMS::createGeff, style);
   registry.registerProperty("betaeff", &MODEL_PARAMS::createBetaEff, style);
-  registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict, style);
+  if (arguments_.tangential)
+    registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict, style);
   registry.connect("Yeff", youngs_, style);
   registry.connect("Geff", shear_, style);
   registry.connect("betaeff", damping_, style);
-  registry.connect("coeffFrict", friction_, style);
+  if (arguments_.tangential)
+    registry.connect("coeffFrict", friction_, style);
+  else
+    friction_ = no_friction_.matrix(atom->ntypes);
 
   bodies_ = &FixClusterBodies::require(lmp);
   for (int id = 0; id < bodies_->shapes().size(); ++id)
@@ -149,7 +167,7 @@ void PairGranCluster::init_granular() {
 
 bool PairGranCluster::contact_match(const std::string type, const std::string model) {
   const std::pair<const char*, const char*> ours[] = {{"model", "hertz"},
-                                                      {"tangential", "history"},
+                                                      {"tangential", arguments_.tangential ? "history" : "off"},
                                                       {"rolling_friction", "off"},
                                                       {"cohesion", "off"},
                                                       {"surface", "default"}};
@@ -170,7 +188,7 @@ double PairGranCluster::stressStrainExponent() {
 
 void PairGranCluster::write_restart_settings(FILE* fp) {
   const int values[] = {restart_mark, static_cast<int>(arguments_.sharing), static_cast<int>(arguments_.damping),
-                        arguments_.tangential_damping ? 1 : 0};
+                        (arguments_.tangential_damping ? 1 : 0) + (arguments_.tangential ? 0 : kFrictionless)};
   fwrite(values, sizeof(int), 4, fp);
 }
 
@@ -183,7 +201,8 @@ void PairGranCluster::read_restart_settings(FILE* fp, const int, const int) {
     error->all(FLERR, problem.c_str());
   arguments_.sharing = static_cast<ContactSharing>(values[1]);
   arguments_.damping = static_cast<contact::DampingLaw>(values[2]);
-  arguments_.tangential_damping = values[3] != 0;
+  arguments_.tangential_damping = (values[3] & 1) != 0;
+  arguments_.tangential = (values[3] & kFrictionless) == 0;
 }
 
 double PairGranCluster::memory_usage() {

@@ -5,6 +5,7 @@
 
 #include "contact/contact_law.h"
 #include "contact/off_centre.h"
+#include "styles/bodies/no_friction.h"
 #include "styles/pairs/near_pairs.h"
 #include "styles/pairs/resting_pairs.h"
 #include "styles/pairs/waiting_pairs.h"
@@ -26,6 +27,7 @@ struct ClusterContactKeywords {
   ContactSharing sharing = ContactSharing::shared;
   contact::DampingLaw damping = contact::DampingLaw::stock;
   bool tangential_damping = true;
+  bool tangential = true; ///< a tangential spring; without it contacts are free of friction
 };
 
 /// Pair style "gran/cluster". A PairGran, because stock code casts any style that has "gran" in its name to one.
@@ -113,6 +115,7 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   double** shear_ = nullptr;
   double** damping_ = nullptr;
   double** friction_ = nullptr;
+  NoFriction no_friction_; ///< what friction_ is where there is no tangential model
   int contact_count_ = 0;
   int near_count_ = 0;
 };

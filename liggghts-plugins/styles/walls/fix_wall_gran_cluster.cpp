@@ -117,11 +117,15 @@ void FixWallGranCluster::init() {
   registry.registerProperty("Yeff", &MODEL_PARAMS::createYeff);
   registry.registerProperty("Geff", &MODEL_PARAMS::createGeff);
   registry.registerProperty("betaeff", &MODEL_PARAMS::createBetaEff);
-  registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
+  if (arguments_.tangential)
+    registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
   registry.connect("Yeff", youngs_, caller);
   registry.connect("Geff", shear_, caller);
   registry.connect("betaeff", damping_, caller);
-  registry.connect("coeffFrict", friction_, caller);
+  if (arguments_.tangential)
+    registry.connect("coeffFrict", friction_, caller);
+  else
+    friction_ = no_friction_.matrix(atom->ntypes);
   if (arguments_.rolling)
     try {
       arguments_.rolling->init(lmp);
@@ -135,6 +139,7 @@ void FixWallGranCluster::init() {
       fail(problem.what());
     }
   bodies_ = FixClusterBodies::find(lmp);
+  refuse_rolling_of_clusters_alone();
   sleep_ = stands_still() ? FixSleepCluster::find(lmp) : nullptr;
   if (bodies_)
     for (int id = 0; id < bodies_->shapes().size(); ++id)
@@ -142,6 +147,23 @@ void FixWallGranCluster::init() {
         fail("shape '" + bodies_->shapes()[id].name() + "' has more than " +
              std::to_string(contact::WallContactKey::kMaxSubSpheres) + " surface sub-spheres: use fewer");
   near_list_stale_ = true;
+}
+
+/// Rolling models act on plain spheres. In a scene that has none and awaits none the word would do nothing.
+void FixWallGranCluster::refuse_rolling_of_clusters_alone() {
+  if (!arguments_.rolling || !bodies_ || bodies_->shapes().size() == 0)
+    return;
+  for (int f = 0; f < modify->nfix; ++f)
+    if (std::strcmp(modify->fix[f]->style, "particletemplate/sphere") == 0)
+      return;
+  int spheres = 0;
+  for (int i = 0; i < atom->nlocal && !spheres; ++i)
+    spheres = is_plain_sphere(i);
+  MPI_Allreduce(MPI_IN_PLACE, &spheres, 1, MPI_INT, MPI_MAX, world);
+  if (!spheres)
+    fail("rolling_friction '" + arguments_.rolling_model +
+         "' acts on plain spheres, and the scene has clusters alone, which roll by their shape; expected "
+         "rolling_friction off");
 }
 
 void FixWallGranCluster::setup(int vflag) {

@@ -6,6 +6,7 @@
 #include "contact/contact_law.h"
 #include "contact/wall_contact.h"
 #include "contact/wall_history.h"
+#include "styles/bodies/no_friction.h"
 #include "styles/walls/wall_arguments.h"
 #include "styles/walls/wall_mesh.h"
 
@@ -86,6 +87,7 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   static constexpr int kBatch = 32;
 
   [[noreturn]] void fail(const std::string& sentence);
+  void refuse_rolling_of_clusters_alone();
   void rebuild_near_list();
   /// Appends the contacts of local atom i to touches_ and makes them the atom's history.
   void collect(int i);
@@ -165,6 +167,7 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   double** shear_ = nullptr;
   double** damping_ = nullptr;
   double** friction_ = nullptr;
+  NoFriction no_friction_; ///< what friction_ is where there is no tangential model
 };
 
 } // namespace eccentra::styles

@@ -3,6 +3,8 @@
 // Reads the arguments of wall/gran/cluster.
 #include "styles/walls/wall_arguments.h"
 
+#include "styles/bodies/stock_contact_words.h"
+
 #include <cmath>
 #include <stdexcept>
 
@@ -47,6 +49,12 @@ class Reader {
     if (word != yes && word != no)
       throw std::invalid_argument(name + " must be " + yes + " or " + no + ", not '" + word + "'");
     return word == yes;
+  }
+  /// The only value that there is for this keyword.
+  void expect_only(const std::string& name, const std::string& value, const std::string& why) {
+    const std::string& word = next("'" + value + "' after " + name);
+    if (word != value)
+      throw std::invalid_argument(name + " '" + word + "' is not offered at walls; expected " + value + ": " + why);
   }
   int count(const std::string& name) {
     const double value = number(name);
@@ -155,11 +163,22 @@ WallArguments read_wall_arguments(const std::vector<std::string>& all) {
   Reader reader(all);
   reader.expect("model");
   reader.expect("hertz");
-  reader.expect("tangential");
-  reader.expect("history");
   while (!reader.done()) {
     const std::string& word = reader.next("");
-    if (word == "rolling_friction") {
+    if (word == "tangential") {
+      arguments.tangential = reader.choose(word, "history", "off");
+    } else if (word == "cohesion") {
+      reader.expect_only(word, "off", "clusters and spheres do not cohere with these walls");
+    } else if (word == "surface") {
+      reader.expect_only(word, "default", "bodies are what their spheres are");
+    } else if (word == "shear") {
+      throw std::invalid_argument("'shear' is written otherwise here: rotate OMEGA for a cylinder that turns, velocity "
+                                  "VX VY VZ for a wall that slides along itself");
+    } else if (stock_contact_words().count(word)) {
+      if (const std::string refused = refused_stock_word(word, reader.next("a value for " + word)); !refused.empty())
+        throw std::invalid_argument(refused);
+    } else if (word == "rolling_friction") {
+      arguments.rolling_model = reader.done() ? "" : reader.peek();
       arguments.rolling = read_rolling(reader, all);
     } else if (word == "contacts") {
       arguments.shared = reader.choose(word, "shared", "parallel");
@@ -180,10 +199,12 @@ WallArguments read_wall_arguments(const std::vector<std::string>& all) {
       if (reader.at == here)
         throw std::invalid_argument(
             "unknown word '" + word +
-            "': rolling_friction, contacts, damping, tangential_damping, primitive (with rotate "
+            "': tangential, rolling_friction, contacts, damping, tangential_damping, primitive (with rotate "
             "and velocity, which stock calls shear) and mesh are there");
     }
   }
+  if (!arguments.tangential)
+    arguments.tangential_damping = false;
   if (!arguments.surface && arguments.meshes.empty())
     throw std::invalid_argument("no wall is given: add 'primitive type T zplane Z' or 'mesh n_meshes 1 meshes ID'");
   return arguments;

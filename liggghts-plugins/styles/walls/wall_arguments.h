@@ -18,7 +18,9 @@ struct WallArguments {
   bool shared = true; ///< contacts shared (else parallel)
   contact::DampingLaw damping = contact::DampingLaw::stock;
   bool tangential_damping = true;
+  bool tangential = false;                     ///< a tangential spring; without it the wall is free of friction
   std::unique_ptr<WallRolling> rolling;        ///< null: rolling_friction off
+  std::string rolling_model;                   ///< as typed
   std::optional<contact::WallSurface> surface; ///< primitive wall
   int type = 0;                                ///< material of a primitive wall
   std::vector<std::string> meshes;             ///< ids of fixes mesh/surface; empty for a primitive wall

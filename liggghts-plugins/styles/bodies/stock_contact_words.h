@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Words of stock's contact models and walls that mean nothing to ours: refused, or taken where they ask for nothing.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace eccentra::styles {
+
+/// What becomes of one word of stock's pair gran or wall/gran.
+struct StockContactWord {
+  const char* nothing; ///< the value that asks for nothing and is taken; null: none
+  const char* remedy;  ///< for any other value
+};
+
+/// By the word. Those that ours obey are not here.
+inline const std::map<std::string, StockContactWord>& stock_contact_words() {
+  static const std::map<std::string, StockContactWord> arguments = {
+      {"limitForce", {"off", "dampers may pull at the end of a contact, as in stock's default"}},
+      {"heating_normal_hertz", {"off", "contacts of clusters do not heat"}},
+      {"heating_tangential_history", {"off", "contacts of clusters do not heat"}},
+      {"heating_tracking", {"off", "contacts of clusters do not heat"}},
+      {"computeElasticPotential", {"off", "energies of contacts are not summed"}},
+      {"computeDissipatedEnergy", {"off", "energies of contacts are not summed"}},
+      {"disableNormalWhenBonded", {"off", "there are no bonds"}},
+      {"absolute_damping", {"off", "it belongs to model hooke; damping follows coefficientRestitution"}},
+      {"viscous", {"off", "it belongs to model hooke; damping follows coefficientRestitution"}},
+      {"tangential_reduce", {"off", "there is no liquid"}},
+      {"track_energy", {"no", "energies of contacts are not summed"}},
+      {"store_force", {"no", "f_ID[1..3] is the force on the wall"}},
+      {"store_force_contact", {"no", "compute contact/cluster/local lists the contacts"}},
+      {"store_force_contact_stress", {"no", "compute contact/cluster/local lists the contacts"}},
+      {"store_force_contact_every", {nullptr, "compute contact/cluster/local lists the contacts"}},
+      {"allow_special_domain_periodic", {nullptr, "a wall reaches through periodic sides by itself"}},
+      {"temperature", {nullptr, "walls have no temperature"}},
+      {"contact_area", {nullptr, "walls have no temperature"}},
+  };
+  return arguments;
+}
+
+/// Empty where `value` of a stock word asks for nothing, else the end of a sentence after the name of the style.
+inline std::string refused_stock_word(const std::string& word, const std::string& value) {
+  const StockContactWord& known = stock_contact_words().at(word);
+  if (known.nothing && value == known.nothing)
+    return {};
+  return word + " '" + value + "' of stock's contact models is not offered: " + known.remedy + "; expected " + word +
+         (known.nothing ? " " + std::string(known.nothing) + ", or nothing" : " left out");
+}
+
+} // namespace eccentra::styles
