@@ -5,6 +5,7 @@
 
 #include "styles/bodies/incompatible_styles.h"
 #include "styles/bodies/restart_version.h"
+#include "styles/bodies/unread_properties.h"
 #include "styles/entry/style_registry.h"
 
 #include "atom.h"
@@ -144,6 +145,7 @@ void FixClusterBodies::omega_from_momentum(int i) {
 void FixClusterBodies::setup_pre_force(int) {
   last_forces_.compare_fixes(*lmp);
   stepped_ = false;
+  name_unread_properties(lmp);
   all_round_ = true;
   for (int id = 0; id < shapes_.size(); ++id)
     all_round_ = all_round_ && shapes_.surface(id).single_at_centre;

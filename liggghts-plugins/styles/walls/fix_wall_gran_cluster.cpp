@@ -7,6 +7,7 @@
 #include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/bodies/fix_sleep_cluster.h"
 #include "styles/bodies/restart_version.h"
+#include "styles/bodies/unread_properties.h"
 #include "styles/entry/style_registry.h"
 
 #include "atom.h"
@@ -168,6 +169,7 @@ void FixWallGranCluster::refuse_rolling_of_clusters_alone() {
 
 void FixWallGranCluster::setup(int vflag) {
   near_list_stale_ = true;
+  name_unread_properties(lmp);
   post_force(vflag);
 }
 
