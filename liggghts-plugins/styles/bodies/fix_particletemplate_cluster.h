@@ -59,6 +59,9 @@ class FixParticletemplateCluster : public LAMMPS_NS::FixTemplateSphere {
 
   int shape_id() const { return shape_id_; }
   double density() const { return density_.mean; } ///< of the solid [kg/m3]
+  int type() const { return atom_type; }
+  /// A density of the distribution [kg/m3], the same on all ranks.
+  double draw_density() { return density_.draw(*random_mc); }
   TemplateOrientation orientation() const { return orientation_; }
 
  private:

@@ -17,6 +17,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 
@@ -24,6 +25,10 @@ namespace {
 
 struct PropertyName {
   using type = char* LAMMPS_NS::FixPropertyGlobal::*;
+};
+
+struct PropertyCount {
+  using type = int LAMMPS_NS::FixPropertyGlobal::*;
 };
 
 std::set<std::string>& names_looked_for() {
@@ -35,6 +40,7 @@ std::set<std::string>& names_looked_for() {
 
 namespace eccentra::styles {
 template struct PrivateMember<PropertyName, &LAMMPS_NS::FixPropertyGlobal::variablename>;
+template struct PrivateMember<PropertyCount, &LAMMPS_NS::FixPropertyGlobal::nvalues>;
 } // namespace eccentra::styles
 
 namespace LAMMPS_NS {
@@ -59,17 +65,28 @@ namespace eccentra::styles {
 
 using namespace LAMMPS_NS;
 
+namespace {
+
+/// Coefficients that are all 0 would not do anything either if they were read.
+bool asks_for_nothing(FixPropertyGlobal& property) {
+  const int count = property.*styles::Published<PropertyCount>::pointer;
+  const double* values = property.get_values();
+  return values && std::all_of(values, values + count, [](double value) { return value == 0; });
+}
+
+} // namespace
+
 void name_unread_properties(LAMMPS* lmp) {
   static std::set<std::string> named;
   // Where our definition does not come first nothing is known.
   if (names_looked_for().empty())
     return;
   for (int f = 0; f < lmp->modify->nfix; ++f) {
-    const auto* property = dynamic_cast<FixPropertyGlobal*>(lmp->modify->fix[f]);
+    auto* property = dynamic_cast<FixPropertyGlobal*>(lmp->modify->fix[f]);
     if (!property)
       continue;
     const std::string name = property->*styles::Published<PropertyName>::pointer;
-    if (names_looked_for().count(name) || !named.insert(name).second)
+    if (names_looked_for().count(name) || asks_for_nothing(*property) || !named.insert(name).second)
       continue;
     if (lmp->comm->me == 0)
       lmp->error->warning(FLERR, ("fix " + std::string(property->id) + " property/global: '" + name +

@@ -53,6 +53,23 @@ template <class Style> struct RegisterFix : RegisterStyle {
       : RegisterStyle({"fix", name, summary, &create<Style, LAMMPS_NS::Fix>}) {}
 };
 
+/// Creator for a compute class with the usual constructor (LAMMPS*, int&, int, char**).
+template <class Style> LAMMPS_NS::Compute* create_compute(LAMMPS_NS::LAMMPS* lmp, int iarg, int narg, char** arg) {
+  return new Style(lmp, iarg, narg, arg);
+}
+
+/// Announces a compute style.
+template <class Style> struct RegisterCompute : RegisterStyle {
+  RegisterCompute(const char* name, const char* summary)
+      : RegisterStyle({"compute", name, summary, nullptr, &create_compute<Style>}) {}
+};
+
+/// Announces a command: a function that gets its arguments.
+struct RegisterCommand : RegisterStyle {
+  RegisterCommand(const char* name, const char* summary, CommandCreator command)
+      : RegisterStyle({"command", name, summary, nullptr, nullptr, nullptr, command}) {}
+};
+
 /// Announces a dump style.
 template <class Style> struct RegisterDump : RegisterStyle {
   RegisterDump(const char* name, const char* summary)

@@ -5,6 +5,7 @@
 
 #include "base/eigen_views.h"
 #include "contact/shared_contacts.h"
+#include "link/fluid_peer.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/entry/style_registry.h"
 #include "styles/pairs/pair_gran_cluster.h"
@@ -21,6 +22,7 @@
 #include "property_registry.h"
 #include "update.h"
 
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
@@ -85,7 +87,7 @@ FixTimestepLimit::FixTimestepLimit(LAMMPS* lmp, int narg, char** arg) : Fix(lmp,
   }
   scalar_flag = 1;
   vector_flag = 1;
-  size_vector = 5;
+  size_vector = 7;
   global_freq = 1;
   extscalar = 0;
   extvector = 0;
@@ -290,6 +292,11 @@ void FixTimestepLimit::evaluate() {
   MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE_INT, MPI_MINLOC, world);
   limit_ = mine;
   MPI_Bcast(&limit_, sizeof limit_, MPI_BYTE, least.rank, world);
+  if (update->dt / limit_.step > worst_) {
+    worst_ = update->dt / limit_.step;
+    worst_at_ = update->ntimestep;
+    worst_of_ = describe(limit_);
+  }
   report(limit_);
 }
 
@@ -313,14 +320,28 @@ void FixTimestepLimit::report(const Limit& limit) {
   if (std::abs(limit.step - reported_) < kReportChange * reported_)
     return;
   reported_ = limit.step;
-  const std::string line = std::string(over ? "WARNING: " : "") + "fix " + id + " timestep/limit at step " +
-                           std::to_string(update->ntimestep) + ": " + facts + "\n";
-  if (comm->me == 0)
-    for (FILE* file : {screen, logfile})
-      if (file) {
-        std::fputs(line.c_str(), file);
-        std::fflush(file);
-      }
+  say(std::string(over ? "WARNING: " : "") + "fix " + id + " timestep/limit at step " +
+      std::to_string(update->ntimestep) + ": " + facts);
+}
+
+void FixTimestepLimit::post_run() {
+  if (worst_ == said_worst_)
+    return;
+  said_worst_ = worst_;
+  say("fix " + std::string(id) + " timestep/limit: the time step was at most " + short_number(worst_) +
+      " of the critical step" +
+      (worst_ > 0 ? " (at step " + std::to_string(worst_at_) + ": " + worst_of_ + ")" : ": nothing touched or moved") +
+      "; safety allows " + short_number(safety_) + (worst_ > safety_ ? ", WARNING: exceeded" : ""));
+}
+
+void FixTimestepLimit::say(const std::string& line) const {
+  if (comm->me != 0)
+    return;
+  for (FILE* file : {screen, logfile, link::hosting_solver() ? stdout : nullptr})
+    if (file) {
+      std::fputs((line + "\n").c_str(), file);
+      std::fflush(file);
+    }
 }
 
 double FixTimestepLimit::compute_scalar() {
@@ -337,8 +358,12 @@ double FixTimestepLimit::compute_vector(int n) {
     return safety_ * limit_.step;
   case 3:
     return limit_.tag;
-  default:
+  case 4:
     return limit_.contacts;
+  case 5:
+    return worst_;
+  default:
+    return static_cast<double>(worst_at_);
   }
 }
 

@@ -18,7 +18,8 @@ class FixClusterBodies;
 
 /// Scalar: critical step [s] (inf where nothing touches or moves). Vector: (1) critical step, (2) step / critical step,
 /// (3) step that the safety factor allows [s], (4) tag of the body that sets the limit (0: an impact to come),
-/// (5) contacts of that body.
+/// (5) contacts of that body, (6) the largest (2) of all evaluations since the fix was made, (7) the step of that one.
+/// Between evaluations these are the values of the last one.
 class FixTimestepLimit : public LAMMPS_NS::Fix {
  public:
   FixTimestepLimit(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
@@ -29,6 +30,7 @@ class FixTimestepLimit : public LAMMPS_NS::Fix {
   void end_of_step() override;
   double compute_scalar() override;
   double compute_vector(int n) override;
+  void post_run() override;
 
  private:
   struct Limit {
@@ -54,12 +56,18 @@ class FixTimestepLimit : public LAMMPS_NS::Fix {
   contact::ContactStiffness stiffness(int type, int other_type, double radius, double overlap, double mass) const;
   std::string describe(const Limit& limit) const;
   void report(const Limit& limit);
+  /// To screen and log; and to the terminal, where a solver hosts us and keeps the screen for itself.
+  void say(const std::string& line) const;
 
   double safety_ = 0.3;
   double speed_ = 0.0; ///< of impacts that the user expects [m/s]
   bool enforce_ = false;
   Limit limit_{};
-  double reported_ = 0.0; ///< critical step of the last report
+  double worst_ = 0; ///< largest step / critical step of all evaluations
+  LAMMPS_NS::bigint worst_at_ = 0;
+  std::string worst_of_;   ///< what set it
+  double said_worst_ = -1; ///< at the end of the last run
+  double reported_ = 0.0;  ///< critical step of the last report
   FixClusterBodies* bodies_ = nullptr;
   bool pair_shares_ = false;
   std::vector<Touching> touching_; ///< sub-contacts of the pair at hand

@@ -155,6 +155,7 @@ void PairGranCluster::init_granular() {
                          std::to_string(contact::max_surface_spheres - 1) + ": use a coarser shape")
                             .c_str());
   FixClusterHistory& history = FixClusterHistory::require(lmp);
+  history_ = &history;
   if (!near_)
     near_ = std::make_unique<NearPairs>(lmp, *bodies_, history);
   resting_ = FixSleepCluster::find(lmp) ? std::make_unique<RestingPairs>() : nullptr;

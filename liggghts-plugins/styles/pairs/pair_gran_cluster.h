@@ -47,6 +47,19 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   void write_restart_settings(FILE* fp) override;
   void read_restart_settings(FILE* fp, const int major, const int minor) override;
   double memory_usage() override;
+  /// Calls visit(a, b, contacts) for each pair of bodies (local or ghost indices) that touched when forces were last
+  /// computed.
+  template <class Visit> void for_each_touching_pair(Visit visit) const {
+    if (!near_ || !near_->live())
+      return;
+    for (std::size_t n = 0; n < near_->pairs.size(); ++n)
+      if (const int count = near_->contacts.first[n + 1] - near_->contacts.first[n]; count > 0)
+        visit(near_->pairs[n].a, near_->pairs[n].b, count);
+    if (resting_)
+      resting_->for_each([&](const RestingPairs::Kept& kept) {
+        visit(near_->pairs[kept.pair].a, near_->pairs[kept.pair].b, static_cast<int>(kept.contacts.size()));
+      });
+  }
   /// "contacts": number of sub-contacts of this rank (int), "near_pairs": pairs of bodies (int).
   void* extract(const char* name, int& dim) override;
 
@@ -87,10 +100,12 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   template <class Block> void recall_history(Block& block);
   template <contact::DampingLaw law, class Block> void compute_block(Block& block, int padded);
   template <class Block> void share_damping(Block& block, int padded);
+  template <class Block> void write_down(const Block& block);
   template <class Forces> void scatter(int pair, const Forces& forces);
 
   ClusterContactKeywords arguments_;
   FixClusterBodies* bodies_ = nullptr;
+  FixClusterHistory* history_ = nullptr;
   std::unique_ptr<NearPairs> near_;
   std::unique_ptr<RestingPairs> resting_; ///< null unless bodies may sleep
   contact::CandidateSearch search_;
@@ -111,6 +126,7 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   bool one_kind_ = false;
   bool one_inertia_ = false; ///< ... and with their inertia, which orientation does not change
   bool advance_ = false;
+  ContactRecords* records_ = nullptr; ///< null in steps whose contacts no output wants
   double** youngs_ = nullptr;
   double** shear_ = nullptr;
   double** damping_ = nullptr;

@@ -94,6 +94,8 @@ template <class Block> void PairGranCluster::evaluate_waiting(Block& c) {
     compute_block<contact::DampingLaw::stock>(c, padded);
   else
     compute_block<contact::DampingLaw::paper>(c, padded);
+  if (records_)
+    write_down(c);
   ContactList& next = near_->next;
   next.id.insert(next.id.end(), block_ids_.data(), block_ids_.data() + filled_);
   for (int k = 0; k < 3; ++k)
@@ -106,6 +108,15 @@ template <class Block> void PairGranCluster::evaluate_waiting(Block& c) {
   contact::add_contact_forces(c, block_pair_.data(), filled_, pairs_, pairs_in_block_);
   for (int n = 0; n < pairs_in_block_; ++n)
     scatter(n, pairs_);
+}
+
+/// Writes the contacts of the block down for outputs. A pair with a ghost is met twice: the rank of A counts it.
+template <class Block> void PairGranCluster::write_down(const Block& c) {
+  for (int m = 0; m < filled_; ++m) {
+    const PairInBlock& p = in_block_[block_pair_[m]];
+    if (p.a < atom->nlocal)
+      records_->add(c, m, p.a, p.b, contact::contact_sphere_a(block_ids_[m]), contact::contact_sphere_b(block_ids_[m]));
+  }
 }
 
 /// The exact test: writes those candidates of the pairs that wait which do overlap to the block.

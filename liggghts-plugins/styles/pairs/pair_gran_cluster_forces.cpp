@@ -58,8 +58,15 @@ void PairGranCluster::compute_force(int eflag, int vflag, int addflag) {
   near_count_ = 0;
   one_kind_ = false; // kinds are numbered anew with each list, and properties may change
   near.update_bodies(path_safety * update->dt, freeze_group_bit());
-  if (resting_)
+  ContactRecords& records = history_->records;
+  records_ = records.wanted(update->ntimestep) ? &records : nullptr;
+  if (records_) {
+    records.begin(update->ntimestep);
+    if (resting_)
+      resting_->release(near);
+  } else if (resting_) {
     rest();
+  }
 
   // First which pairs need a look, so that what they need can be on its way when their turn comes.
   awake_.resize(pair_count);
@@ -77,7 +84,7 @@ void PairGranCluster::compute_force(int eflag, int vflag, int addflag) {
   contact_count_ = near.next.size();
   near.add_forces();
   near.accept();
-  if (resting_)
+  if (resting_ && !records_)
     add_resting_forces();
   near.set_counts(contact_count_, near_count_);
 }

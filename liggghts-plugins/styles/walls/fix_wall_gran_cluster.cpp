@@ -9,6 +9,7 @@
 #include "styles/bodies/restart_version.h"
 #include "styles/bodies/unread_properties.h"
 #include "styles/entry/style_registry.h"
+#include "styles/pairs/fix_cluster_history.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -141,6 +142,8 @@ void FixWallGranCluster::init() {
     }
   bodies_ = FixClusterBodies::find(lmp);
   refuse_rolling_of_clusters_alone();
+  FixClusterHistory* contacts = FixClusterHistory::find(lmp);
+  all_records_ = contacts ? &contacts->records : nullptr;
   sleep_ = stands_still() ? FixSleepCluster::find(lmp) : nullptr;
   if (bodies_)
     for (int id = 0; id < bodies_->shapes().size(); ++id)
@@ -202,12 +205,19 @@ void FixWallGranCluster::rebuild_near_list() {
   near_list_stale_ = false;
 }
 
+void FixWallGranCluster::open_records() {
+  records_ = all_records_ && all_records_->wanted(update->ntimestep) ? all_records_ : nullptr;
+  if (records_ && sleep_)
+    near_list_stale_ = true; // contacts of sleepers are written down, too
+}
+
 void FixWallGranCluster::post_force(int) {
+  open_records();
   if (near_list_stale_)
     rebuild_near_list();
   local_sums_.fill(0.0);
   summed_at_ = -1;
-  if (sleep_)
+  if (sleep_ && !records_)
     rest();
   near_forces();
 }

@@ -6,6 +6,7 @@
 #include "contact/contact_law.h"
 #include "contact/wall_contact.h"
 #include "contact/wall_history.h"
+#include "styles/bodies/contact_records.h"
 #include "styles/bodies/no_friction.h"
 #include "styles/walls/wall_arguments.h"
 #include "styles/walls/wall_mesh.h"
@@ -131,6 +132,8 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   /// Torque [N m] of the rolling model on atom i from place m of the block, evaluated.
   Eigen::Vector3d rolling_torque(int m, int i, int wall_type, const Eigen::Vector3d& wall_spin,
                                  contact::WallHistoryEntry& entry);
+  /// Looks whether an output wants the contacts of this step.
+  void open_records();
   bool is_plain_sphere(int i) const;
   bool moves_like_sphere(int i) const;
 
@@ -158,6 +161,8 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   std::vector<contact::WallTouch> touches_; ///< of the particles at hand
   std::vector<double> gaps_;                ///< of the sub-spheres of the particle at hand
   std::unique_ptr<contact::ContactBlock> block_;
+  ContactRecords* all_records_ = nullptr;      ///< null without pair_style gran/cluster
+  ContactRecords* records_ = nullptr;          ///< null in steps whose contacts no output wants
   contact::WallHistory::Entries next_history_; ///< of the particle at hand
   std::array<double, 7> local_sums_{};         ///< force, torque, number of contacts on this rank
   std::array<double, 7> global_sums_{};

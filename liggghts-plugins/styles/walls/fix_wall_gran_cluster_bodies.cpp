@@ -168,6 +168,9 @@ void FixWallGranCluster::scatter_clusters(const contact::PlainWall& wall) {
     const int i = cluster.atom;
     contact::WallHistory::Entries& entries = history_[i];
     double force[3] = {0, 0, 0}, torque[3] = {0, 0, 0}, from[3];
+    if (records_)
+      for (int m = cluster.first; m < cluster.last; ++m)
+        records_->add(block, m, i, ContactRecord::wall, sub_in_block_[m], 0);
     for (int m = cluster.first; m < cluster.last; ++m)
       for (int d = 0; d < 3; ++d) {
         force[d] += block.force[d][m];

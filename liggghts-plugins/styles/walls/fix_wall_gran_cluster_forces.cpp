@@ -60,6 +60,8 @@ Eigen::Vector3d FixWallGranCluster::rolling_torque(int m, int i, int wall_type, 
 void FixWallGranCluster::scatter(int m, const contact::WallTouch& touch) {
   const contact::ContactBlock& block = *block_;
   const int i = touch.atom;
+  if (records_)
+    records_->add(block, m, i, ContactRecord::wall, touch.key.sub(), 0);
   const auto row = [m](const contact::ContactBlock::Row* rows) {
     return Eigen::Vector3d(rows[0][m], rows[1][m], rows[2][m]);
   };

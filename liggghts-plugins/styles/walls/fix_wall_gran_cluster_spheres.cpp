@@ -72,6 +72,8 @@ void FixWallGranCluster::scatter_spheres(const contact::PlainWall& wall, int n) 
   for (int m = 0; m < n; ++m) {
     const int i = in_block_[m];
     contact::WallHistoryEntry& entry = history_[i][0];
+    if (records_)
+      records_->add(block, m, i, ContactRecord::wall, 0, 0);
     double force[3], torque[3], from[3];
     for (int k = 0; k < 3; ++k) {
       entry.shear[k] = block.history[k][m];
