@@ -125,29 +125,33 @@ TEST(Reported, overlap_at_border) {
 }
 
 TEST(Reported, density_uniform) {
-  const auto masses = [](const std::string& density) {
-    return results(run_script(
-        replaced(head, "density constant 2500 shape disk 19", density + " shape cube 8") +
-        "region fill block 0 0.03 0 0.03 0.006 0.045 units box\n"
-        "fix ins all insert/pack seed 32452843 distributiontemplate d insert_every once region fill "
-        "particles_in_region "
-        "60\nrun 1\ncompute rho all property/atom density\ncompute mean all reduce ave c_rho\n"
-        "compute least all reduce min c_rho\ncompute most all reduce max c_rho\ncompute m all property/atom mass\n"
-        "compute sum all reduce sum c_m\nthermo_style custom step c_mean c_least c_most c_sum atoms\nrun 0\n" +
-        print_results({"c_mean", "c_least", "c_most", "c_sum", "atoms"})));
-  };
   const double volume = M_PI / 6 * std::pow(6e-3, 3); // of the union, by the diameter's definition
-  const auto constant = masses("density constant 2500");
+  // Mean, least and largest density, mass, number of bodies.
+  const auto densities = [volume](const std::string& density) {
+    auto found = results(
+        run_script(replaced(head, "density constant 2500 shape disk 19", density + " shape cube 8") +
+                   "region fill block 0 0.03 0 0.03 0.006 0.045 units box\n"
+                   "fix ins all insert/pack seed 32452843 distributiontemplate d insert_every once region fill "
+                   "particles_in_region "
+                   "60\nrun 1\ncompute m all property/atom mass\ncompute mean all reduce ave c_m\n"
+                   "compute least all reduce min c_m\ncompute most all reduce max c_m\ncompute sum all reduce sum c_m\n"
+                   "thermo_style custom step c_mean c_least c_most c_sum atoms\nrun 0\n" +
+                   print_results({"c_mean", "c_least", "c_most", "c_sum", "atoms"})));
+    for (std::size_t k = 0; k < found.size() && k < 3; ++k)
+      found[k] /= volume;
+    return found;
+  };
+  const auto constant = densities("density constant 2500");
   ASSERT_EQ(constant.size(), 5u);
   EXPECT_NEAR(constant[3], constant[4] * 2500 * volume, 1e-9);
-  const auto uniform = masses("density uniform 2000 3000");
+  const auto uniform = densities("density uniform 2000 3000");
   ASSERT_EQ(uniform.size(), 5u);
   EXPECT_GE(uniform[1], 2000);
   EXPECT_LE(uniform[2], 3000);
   EXPECT_GT(uniform[2] - uniform[1], 700);
   EXPECT_NEAR(uniform[0], 2500, 4 * 1000 / std::sqrt(12 * uniform[4]));
   EXPECT_NEAR(uniform[3], uniform[4] * uniform[0] * volume, 1e-9);
-  const auto gaussian = masses("density gaussian 2500 100");
+  const auto gaussian = densities("density gaussian 2500 100");
   ASSERT_EQ(gaussian.size(), 5u);
   EXPECT_GE(gaussian[1], 2200);
   EXPECT_LE(gaussian[2], 2800);

@@ -46,9 +46,10 @@ void pile_up(LiggghtsSession& session, const std::string& more = "") {
     Start start;
     start.position = {0.0045 + 0.009 * (n % 2), 0.0045 + 0.009 * (n / 2 % 2), 0.005 + 0.009 * (n / 4)};
     start.orientation = Eigen::AngleAxisd(0.3 * n, Eigen::Vector3d(1, 2, 0.5).normalized());
+    start.velocity = {0, 0, -0.6};
     add_body(session, shape_of(n % 3 ? "cube" : "disk", n % 3 ? "8" : "19", 7e-3), start);
   }
-  session.command("run 1500");
+  session.command("run 2500");
 }
 
 /// Sum over all ranks.
@@ -145,7 +146,7 @@ TEST(ContactOutput, CountsTouchingBodies) {
   LiggghtsSession session;
   pile_up(session, "compute c all contact/cluster/local of all id sub\ncompute rows all reduce sum c_c[1]\n"
                    "compute n all contact/cluster/atom\ncompute touching all reduce sum c_n[1]\n"
-                   "thermo_style custom step c_rows c_touching\nthermo 1500\n");
+                   "thermo_style custom step c_rows c_touching\nthermo 2500\n");
   const LAMMPS_NS::Compute& rows = compute(session, "c");
   std::vector<double> contacts(2 * bodies, 0.), partners(bodies * (bodies + 1), 0.);
   for (int n = 0; n < rows.size_local_rows; ++n) {
