@@ -8,7 +8,7 @@ from . import charts, measures, runs, section, tables
 
 LENGTH, CONCENTRATION, VELOCITY = 0.15, 0.05, 0.58
 DEM_STEP = 5e-3 / 64
-BASE = {"velocity": VELOCITY, "length": LENGTH, "cells": "8 32 10", "fluid_step": 5e-3, "interval": 64}
+BASE = {"velocity": VELOCITY, "length": LENGTH, "cells": "8 32 10", "fluid_step": 5e-3, "interval": 64, "safety": 2}
 PERCENT = 2.0  # the accuracy that the plain words ask for
 RESULTS = ("gradient", "flux", "height")  # of section.QUANTITIES
 

@@ -30,11 +30,15 @@ struct ContactRecord {
 /// Outputs announce themselves; who computes forces asks once a step whether one of them is due.
 class ContactRecords {
  public:
-  void add_reader(LAMMPS_NS::Compute* reader) { readers_.push_back(reader); }
+  void add_reader(LAMMPS_NS::Compute* reader) {
+    if (readers_.empty())
+      step_ = -1;
+    readers_.push_back(reader);
+  }
   void remove_reader(LAMMPS_NS::Compute* reader) {
     readers_.erase(std::remove(readers_.begin(), readers_.end(), reader), readers_.end());
   }
-  /// True if the contacts of this step are to be written down; the first call of a step forgets what was there.
+  /// True if the contacts of this step are to be written down.
   bool wanted(LAMMPS_NS::bigint step) {
     if (readers_.empty())
       return false;
@@ -43,6 +47,7 @@ class ContactRecords {
       due = due || reader->matchstep(step);
     return due;
   }
+  /// Forgets the contacts of earlier steps: the pair style comes first.
   void begin(LAMMPS_NS::bigint step) {
     step_ = step;
     rows.clear();
@@ -52,7 +57,7 @@ class ContactRecords {
   std::vector<ContactRecord> rows;
 
   /// Contact m of a block of the contact law, evaluated, of atom `a` with `b`.
-  template <class Block> void base::add(const Block& c, int m, int a, int b, int sub_a, int sub_b) {
+  template <class Block> void add(const Block& c, int m, int a, int b, int sub_a, int sub_b) {
     ContactRecord row;
     row.a = a;
     row.b = b;
@@ -75,5 +80,8 @@ class ContactRecords {
   std::vector<LAMMPS_NS::Compute*> readers_;
   LAMMPS_NS::bigint step_ = -1;
 };
+
+/// Those of a LIGGGHTS instance.
+ContactRecords& contact_records(LAMMPS_NS::LAMMPS* lmp);
 
 } // namespace eccentra::styles

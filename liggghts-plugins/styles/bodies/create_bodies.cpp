@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Command create_bodies: clusters at the places and in the orientations of a list.
-#include "styles/bodies/body_list.h"
+#include "shape/body_list.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/bodies/fix_particletemplate_cluster.h"
 #include "styles/entry/style_registry.h"
@@ -39,7 +39,7 @@ constexpr double kWorthAWord = 0.01;
 /// Finds listed bodies near a place, through periodic sides as well.
 class PlaceGrid {
  public:
-  PlaceGrid(const Domain& domain, const std::vector<ListedBody>& bodies, double spacing) : domain_(domain) {
+  PlaceGrid(const Domain& domain, const std::vector<shape::ListedBody>& bodies, double spacing) : domain_(domain) {
     for (int k = 0; k < 3; ++k) {
       const double box = domain.boxhi[k] - domain.boxlo[k];
       count_[k] = std::clamp(static_cast<int>(box / spacing), 1, 1024);
@@ -143,17 +143,17 @@ class CreateBodies {
     MPI_Bcast(text.data(), length, MPI_CHAR, 0, lmp_.world);
     std::istringstream in(text);
     try {
-      listed_ = read_body_list(in, file_);
+      listed_ = shape::read_body_list(in, file_);
     } catch (const std::invalid_argument& problem) {
       refuse(problem.what());
     }
   }
 
-  std::string where(const ListedBody& body) const { return file_ + ":" + std::to_string(body.line); }
+  std::string where(const shape::ListedBody& body) const { return file_ + ":" + std::to_string(body.line); }
 
   void keep_in_box() {
     Domain& domain = *lmp_.domain;
-    for (ListedBody& body : listed_) {
+    for (shape::ListedBody& body : listed_) {
       domain.remap(body.place);
       for (int k = 0; k < 3; ++k)
         if (body.place[k] < domain.boxlo[k] || body.place[k] >= domain.boxhi[k])
@@ -162,7 +162,7 @@ class CreateBodies {
     }
   }
 
-  PlacedBody placed(const ListedBody& body) const {
+  PlacedBody placed(const shape::ListedBody& body) const {
     return FixClusterBodies::require(&lmp_).insertion().body(template_->shape_id(), body.orientation);
   }
 
@@ -224,7 +224,7 @@ class CreateBodies {
     int last_tag = atom.nlocal > 0 ? *std::max_element(atom.tag, atom.tag + atom.nlocal) : 0;
     MPI_Allreduce(MPI_IN_PLACE, &last_tag, 1, MPI_INT, MPI_MAX, lmp_.world);
     for (std::size_t n = 0; n < listed_.size(); ++n) {
-      ListedBody& body = listed_[n];
+      shape::ListedBody& body = listed_[n];
       const double density = template_->draw_density();
       if (!lmp_.domain->is_in_subdomain(body.place))
         continue;
@@ -262,7 +262,7 @@ class CreateBodies {
   LAMMPS& lmp_;
   std::string file_;
   FixParticletemplateCluster* template_ = nullptr;
-  std::vector<ListedBody> listed_;
+  std::vector<shape::ListedBody> listed_;
 };
 
 const styles::RegisterCommand registered("create_bodies", "clusters at the places and in the orientations of a list",

@@ -45,17 +45,13 @@ FixClusterHistory::~FixClusterHistory() {
   atom->delete_callback(id, 1);
 }
 
-FixClusterHistory* FixClusterHistory::find(LAMMPS* lmp) {
-  return static_cast<FixClusterHistory*>(lmp->modify->find_fix_style_strict(style_name, 0));
-}
-
 FixClusterHistory& FixClusterHistory::require(LAMMPS* lmp) {
-  if (FixClusterHistory* there = find(lmp))
+  if (auto* there = static_cast<FixClusterHistory*>(lmp->modify->find_fix_style_strict(style_name, 0)))
     return *there;
   std::string arguments[] = {fix_id, "all", style_name};
   char* arg[] = {arguments[0].data(), arguments[1].data(), arguments[2].data()};
   lmp->modify->add_fix(3, arg);
-  return *find(lmp);
+  return *static_cast<FixClusterHistory*>(lmp->modify->find_fix_style_strict(style_name, 0));
 }
 
 void FixClusterHistory::post_create() {

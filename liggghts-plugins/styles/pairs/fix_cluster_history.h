@@ -3,8 +3,6 @@
 // Tangential history of sub-contacts while atoms migrate and in restart files; any number per body.
 #pragma once
 
-#include "styles/bodies/contact_records.h"
-
 #include <mpi.h>
 
 #include "fix.h"
@@ -35,15 +33,11 @@ class FixClusterHistory : public LAMMPS_NS::Fix {
   ~FixClusterHistory() override;
 
   static FixClusterHistory& require(LAMMPS_NS::LAMMPS* lmp);
-  /// The scene's instance, or null before pair_style gran/cluster has been initialised.
-  static FixClusterHistory* find(LAMMPS_NS::LAMMPS* lmp);
 
   /// Called before touches(i) must be right for every local atom; the pair style fills it in. The argument tells
   /// whether the pairs stay valid afterwards (no atom moves).
   std::function<void(bool keep)> hand_over;
   std::vector<Touch>& touches(int i) { return touches_[i]; }
-  /// What pair style and walls write down for outputs.
-  ContactRecords records;
   /// The pair style's counts on this rank: sub-contacts and pairs of bodies with sub-spheres close to each other.
   int contact_count = 0, near_pair_count = 0;
 

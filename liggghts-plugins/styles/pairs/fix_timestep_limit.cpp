@@ -5,8 +5,8 @@
 
 #include "base/eigen_views.h"
 #include "contact/shared_contacts.h"
-#include "link/fluid_peer.h"
 #include "styles/bodies/fix_cluster_bodies.h"
+#include "styles/entry/host_terminal.h"
 #include "styles/entry/style_registry.h"
 #include "styles/pairs/pair_gran_cluster.h"
 #include "styles/walls/fix_wall_gran_cluster.h"
@@ -321,7 +321,8 @@ void FixTimestepLimit::report(const Limit& limit) {
     return;
   reported_ = limit.step;
   say(std::string(over ? "WARNING: " : "") + "fix " + id + " timestep/limit at step " +
-      std::to_string(update->ntimestep) + ": " + facts);
+          std::to_string(update->ntimestep) + ": " + facts,
+      over);
 }
 
 void FixTimestepLimit::post_run() {
@@ -329,15 +330,17 @@ void FixTimestepLimit::post_run() {
     return;
   said_worst_ = worst_;
   say("fix " + std::string(id) + " timestep/limit: the time step was at most " + short_number(worst_) +
-      " of the critical step" +
-      (worst_ > 0 ? " (at step " + std::to_string(worst_at_) + ": " + worst_of_ + ")" : ": nothing touched or moved") +
-      "; safety allows " + short_number(safety_) + (worst_ > safety_ ? ", WARNING: exceeded" : ""));
+          " of the critical step" +
+          (worst_ > 0 ? " (at step " + std::to_string(worst_at_) + ": " + worst_of_ + ")"
+                      : ": nothing touched or moved") +
+          "; safety allows " + short_number(safety_) + (worst_ > safety_ ? ", WARNING: exceeded" : ""),
+      true);
 }
 
-void FixTimestepLimit::say(const std::string& line) const {
+void FixTimestepLimit::say(const std::string& line, bool to_host) const {
   if (comm->me != 0)
     return;
-  for (FILE* file : {screen, logfile, link::hosting_solver() ? stdout : nullptr})
+  for (FILE* file : {screen, logfile, to_host ? host_terminal() : nullptr})
     if (file) {
       std::fputs((line + "\n").c_str(), file);
       std::fflush(file);

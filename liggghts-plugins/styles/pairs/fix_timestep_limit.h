@@ -56,8 +56,8 @@ class FixTimestepLimit : public LAMMPS_NS::Fix {
   contact::ContactStiffness stiffness(int type, int other_type, double radius, double overlap, double mass) const;
   std::string describe(const Limit& limit) const;
   void report(const Limit& limit);
-  /// To screen and log; and to the terminal, where a solver hosts us and keeps the screen for itself.
-  void say(const std::string& line) const;
+  /// To screen and log. `to_host`: also to the terminal, where a solver hosts us and keeps the screen for itself.
+  void say(const std::string& line, bool to_host) const;
 
   double safety_ = 0.3;
   double speed_ = 0.0; ///< of impacts that the user expects [m/s]

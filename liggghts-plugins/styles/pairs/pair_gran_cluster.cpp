@@ -4,9 +4,9 @@
 // pair_gran_cluster_forces.cpp.
 #include "styles/pairs/pair_gran_cluster.h"
 
+#include "contact/stock_contact_keywords.h"
 #include "styles/bodies/fix_sleep_cluster.h"
 #include "styles/bodies/restart_version.h"
-#include "styles/bodies/stock_contact_words.h"
 #include "styles/entry/style_registry.h"
 
 #include "atom.h"
@@ -80,8 +80,9 @@ void PairGranCluster::settings(int narg, char** arg) {
   for (int i = 0; i < narg; i += 2) {
     const std::string keyword = arg[i];
     const Choice* choice = nullptr;
-    if (stock_contact_words().count(keyword)) {
-      if (const std::string refused = refused_stock_word(keyword, i + 1 < narg ? arg[i + 1] : ""); !refused.empty())
+    if (contact::stock_contact_keywords().count(keyword)) {
+      if (const std::string refused = contact::refused_stock_keyword(keyword, i + 1 < narg ? arg[i + 1] : "");
+          !refused.empty())
         error->all(FLERR, (std::string(style) + ": " + refused).c_str());
       continue;
     }
@@ -155,7 +156,7 @@ void PairGranCluster::init_granular() {
                          std::to_string(contact::max_surface_spheres - 1) + ": use a coarser shape")
                             .c_str());
   FixClusterHistory& history = FixClusterHistory::require(lmp);
-  history_ = &history;
+  all_records_ = &contact_records(lmp);
   if (!near_)
     near_ = std::make_unique<NearPairs>(lmp, *bodies_, history);
   resting_ = FixSleepCluster::find(lmp) ? std::make_unique<RestingPairs>() : nullptr;

@@ -4,8 +4,9 @@
 #pragma once
 
 #include "contact/contact_law.h"
+#include "contact/no_friction.h"
 #include "contact/off_centre.h"
-#include "styles/bodies/no_friction.h"
+#include "styles/bodies/contact_records.h"
 #include "styles/pairs/near_pairs.h"
 #include "styles/pairs/resting_pairs.h"
 #include "styles/pairs/waiting_pairs.h"
@@ -105,7 +106,6 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
 
   ClusterContactKeywords arguments_;
   FixClusterBodies* bodies_ = nullptr;
-  FixClusterHistory* history_ = nullptr;
   std::unique_ptr<NearPairs> near_;
   std::unique_ptr<RestingPairs> resting_; ///< null unless bodies may sleep
   contact::CandidateSearch search_;
@@ -126,12 +126,13 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   bool one_kind_ = false;
   bool one_inertia_ = false; ///< ... and with their inertia, which orientation does not change
   bool advance_ = false;
+  ContactRecords* all_records_ = nullptr;
   ContactRecords* records_ = nullptr; ///< null in steps whose contacts no output wants
   double** youngs_ = nullptr;
   double** shear_ = nullptr;
   double** damping_ = nullptr;
   double** friction_ = nullptr;
-  NoFriction no_friction_; ///< what friction_ is where there is no tangential model
+  contact::NoFriction no_friction_; ///< what friction_ is where there is no tangential model
   int contact_count_ = 0;
   int near_count_ = 0;
 };

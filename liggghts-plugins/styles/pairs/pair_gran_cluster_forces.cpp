@@ -58,10 +58,9 @@ void PairGranCluster::compute_force(int eflag, int vflag, int addflag) {
   near_count_ = 0;
   one_kind_ = false; // kinds are numbered anew with each list, and properties may change
   near.update_bodies(path_safety * update->dt, freeze_group_bit());
-  ContactRecords& records = history_->records;
-  records_ = records.wanted(update->ntimestep) ? &records : nullptr;
+  records_ = all_records_->wanted(update->ntimestep) ? all_records_ : nullptr;
   if (records_) {
-    records.begin(update->ntimestep);
+    records_->begin(update->ntimestep);
     if (resting_)
       resting_->release(near);
   } else if (resting_) {

@@ -9,7 +9,6 @@
 #include "styles/bodies/restart_version.h"
 #include "styles/bodies/unread_properties.h"
 #include "styles/entry/style_registry.h"
-#include "styles/pairs/fix_cluster_history.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -142,8 +141,7 @@ void FixWallGranCluster::init() {
     }
   bodies_ = FixClusterBodies::find(lmp);
   refuse_rolling_of_clusters_alone();
-  FixClusterHistory* contacts = FixClusterHistory::find(lmp);
-  all_records_ = contacts ? &contacts->records : nullptr;
+  all_records_ = &contact_records(lmp);
   sleep_ = stands_still() ? FixSleepCluster::find(lmp) : nullptr;
   if (bodies_)
     for (int id = 0; id < bodies_->shapes().size(); ++id)
@@ -206,7 +204,7 @@ void FixWallGranCluster::rebuild_near_list() {
 }
 
 void FixWallGranCluster::open_records() {
-  records_ = all_records_ && all_records_->wanted(update->ntimestep) ? all_records_ : nullptr;
+  records_ = all_records_->wanted(update->ntimestep) ? all_records_ : nullptr;
   if (records_ && sleep_)
     near_list_stale_ = true; // contacts of sleepers are written down, too
 }

@@ -4,10 +4,10 @@
 #pragma once
 
 #include "contact/contact_law.h"
+#include "contact/no_friction.h"
 #include "contact/wall_contact.h"
 #include "contact/wall_history.h"
 #include "styles/bodies/contact_records.h"
-#include "styles/bodies/no_friction.h"
 #include "styles/walls/wall_arguments.h"
 #include "styles/walls/wall_mesh.h"
 
@@ -161,7 +161,7 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   std::vector<contact::WallTouch> touches_; ///< of the particles at hand
   std::vector<double> gaps_;                ///< of the sub-spheres of the particle at hand
   std::unique_ptr<contact::ContactBlock> block_;
-  ContactRecords* all_records_ = nullptr;      ///< null without pair_style gran/cluster
+  ContactRecords* all_records_ = nullptr;
   ContactRecords* records_ = nullptr;          ///< null in steps whose contacts no output wants
   contact::WallHistory::Entries next_history_; ///< of the particle at hand
   std::array<double, 7> local_sums_{};         ///< force, torque, number of contacts on this rank
@@ -172,7 +172,7 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   double** shear_ = nullptr;
   double** damping_ = nullptr;
   double** friction_ = nullptr;
-  NoFriction no_friction_; ///< what friction_ is where there is no tangential model
+  contact::NoFriction no_friction_; ///< what friction_ is where there is no tangential model
 };
 
 } // namespace eccentra::styles

@@ -3,7 +3,7 @@
 // Reads the arguments of wall/gran/cluster.
 #include "styles/walls/wall_arguments.h"
 
-#include "styles/bodies/stock_contact_words.h"
+#include "contact/stock_contact_keywords.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -174,8 +174,9 @@ WallArguments read_wall_arguments(const std::vector<std::string>& all) {
     } else if (word == "shear") {
       throw std::invalid_argument("'shear' is written otherwise here: rotate OMEGA for a cylinder that turns, velocity "
                                   "VX VY VZ for a wall that slides along itself");
-    } else if (stock_contact_words().count(word)) {
-      if (const std::string refused = refused_stock_word(word, reader.next("a value for " + word)); !refused.empty())
+    } else if (contact::stock_contact_keywords().count(word)) {
+      if (const std::string refused = contact::refused_stock_keyword(word, reader.next("a value for " + word));
+          !refused.empty())
         throw std::invalid_argument(refused);
     } else if (word == "rolling_friction") {
       arguments.rolling_model = reader.done() ? "" : reader.peek();

@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads lists of bodies.
-#include "styles/bodies/body_list.h"
+#include "shape/body_list.h"
+
+#include "base/option_reader.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 
-namespace eccentra::styles {
+namespace eccentra::shape {
 
 namespace {
 
@@ -47,11 +48,10 @@ std::vector<ListedBody> read_body_list(std::istream& in, const std::string& file
     std::istringstream arguments(text);
     std::vector<double> numbers;
     for (std::string word; arguments >> word;) {
-      char* end = nullptr;
-      const double value = std::strtod(word.c_str(), &end);
-      if (*end || !std::isfinite(value))
+      const std::optional<double> value = base::finite_number(word);
+      if (!value)
         throw std::invalid_argument(where + ": '" + word + "' is not a finite number; " + expected);
-      numbers.push_back(value);
+      numbers.push_back(*value);
     }
     if (numbers.empty())
       continue;
@@ -65,4 +65,4 @@ std::vector<ListedBody> read_body_list(std::istream& in, const std::string& file
   return bodies;
 }
 
-} // namespace eccentra::styles
+} // namespace eccentra::shape

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace eccentra::styles {
+namespace eccentra::shape {
 
 struct ListedBody {
   int line;                               ///< in the file, from 1
@@ -22,4 +22,4 @@ struct ListedBody {
 /// with a sentence that names the file and the line.
 std::vector<ListedBody> read_body_list(std::istream& in, const std::string& file);
 
-} // namespace eccentra::styles
+} // namespace eccentra::shape

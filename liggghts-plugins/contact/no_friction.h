@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace eccentra::styles {
+namespace eccentra::contact {
 
 /// A matrix of zeros that stands where a property of pairs of atom types is expected.
 class NoFriction {
@@ -21,4 +21,4 @@ class NoFriction {
   std::vector<double*> rows_;
 };
 
-} // namespace eccentra::styles
+} // namespace eccentra::contact

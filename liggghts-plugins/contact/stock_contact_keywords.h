@@ -1,22 +1,22 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Words of stock's contact models and walls that mean nothing to ours: refused, or taken where they ask for nothing.
+// Keywords of stock's contact models and walls that mean nothing to ours: refused, or taken where they ask for nothing.
 #pragma once
 
 #include <map>
 #include <string>
 
-namespace eccentra::styles {
+namespace eccentra::contact {
 
-/// What becomes of one word of stock's pair gran or wall/gran.
-struct StockContactWord {
+/// What becomes of one keyword of stock's pair gran or wall/gran.
+struct StockContactKeyword {
   const char* nothing; ///< the value that asks for nothing and is taken; null: none
   const char* remedy;  ///< for any other value
 };
 
-/// By the word. Those that ours obey are not here.
-inline const std::map<std::string, StockContactWord>& stock_contact_words() {
-  static const std::map<std::string, StockContactWord> arguments = {
+/// By the keyword. Those that ours obey are not here.
+inline const std::map<std::string, StockContactKeyword>& stock_contact_keywords() {
+  static const std::map<std::string, StockContactKeyword> arguments = {
       {"limitForce", {"off", "dampers may pull at the end of a contact, as in stock's default"}},
       {"heating_normal_hertz", {"off", "contacts of clusters do not heat"}},
       {"heating_tangential_history", {"off", "contacts of clusters do not heat"}},
@@ -39,13 +39,13 @@ inline const std::map<std::string, StockContactWord>& stock_contact_words() {
   return arguments;
 }
 
-/// Empty where `value` of a stock word asks for nothing, else the end of a sentence after the name of the style.
-inline std::string refused_stock_word(const std::string& word, const std::string& value) {
-  const StockContactWord& known = stock_contact_words().at(word);
+/// Empty where `value` of a stock keyword asks for nothing, else the end of a sentence after the name of the style.
+inline std::string refused_stock_keyword(const std::string& keyword, const std::string& value) {
+  const StockContactKeyword& known = stock_contact_keywords().at(keyword);
   if (known.nothing && value == known.nothing)
     return {};
-  return word + " '" + value + "' of stock's contact models is not offered: " + known.remedy + "; expected " + word +
-         (known.nothing ? " " + std::string(known.nothing) + ", or nothing" : " left out");
+  return keyword + " '" + value + "' of stock's contact models is not offered: " + known.remedy + "; expected " +
+         keyword + (known.nothing ? " " + std::string(known.nothing) + ", or nothing" : " left out");
 }
 
-} // namespace eccentra::styles
+} // namespace eccentra::contact

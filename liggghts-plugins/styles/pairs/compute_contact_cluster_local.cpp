@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // compute contact/cluster/local: one row per sub-contact, with the forces that acted in the step.
+#include "styles/bodies/contact_records.h"
 #include "styles/entry/style_registry.h"
-#include "styles/pairs/fix_cluster_history.h"
 #include "styles/pairs/pair_gran_cluster.h"
 
 #include "atom.h"
@@ -160,8 +160,7 @@ class ComputeContactClusterLocal : public Compute {
   }
 
   ~ComputeContactClusterLocal() override {
-    if (FixClusterHistory* history = modify ? FixClusterHistory::find(lmp) : nullptr)
-      history->records.remove_reader(this);
+    contact_records(lmp).remove_reader(this);
     memory->destroy(array_);
   }
 
@@ -170,14 +169,14 @@ class ComputeContactClusterLocal : public Compute {
       refuse("reads the contacts of pair_style gran/cluster, not of '" +
              std::string(force->pair ? force->pair_style : "none") +
              "'; expected compute pair/gran/local or wall/gran/local");
-    ContactRecords& records = FixClusterHistory::require(lmp).records;
+    ContactRecords& records = contact_records(lmp);
     records.remove_reader(this);
     records.add_reader(this);
   }
 
   void compute_local() override {
     invoked_local = update->ntimestep;
-    const ContactRecords& records = FixClusterHistory::require(lmp).records;
+    const ContactRecords& records = contact_records(lmp);
     if (!records.holds(update->ntimestep))
       refuse("the contacts of step " + std::to_string(update->ntimestep) +
              " were not written down, as no output announced them; expected dump local, or fix ave/... or thermo "
