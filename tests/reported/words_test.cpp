@@ -304,7 +304,7 @@ TEST(Reported, keywords_of_stock_styles) {
       {"diameter 6e-3", "diameter 6e-3 additional_group all", nullptr},
       {"diameter 6e-3", "diameter 6e-3 nspheres 8", "nspheres"},
       {"diameter 6e-3", "diameter 6e-3 ntry 100000", "ntry"},
-      {"diameter 6e-3", "diameter 6e-3 spheres file a.clump", "spheres"},
+      {"diameter 6e-3", "atom_type 1 spheres file a.clump", "spheres"},
       {"diameter 6e-3", "diameter 6e-3 spheres_different_types file a.clump", "spheres_different_types"},
       {"diameter 6e-3", "diameter 6e-3 bonded yes", "bonded"},
       {"diameter 6e-3", "diameter 6e-3 type 1", "type"},

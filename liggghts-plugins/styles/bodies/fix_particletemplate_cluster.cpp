@@ -78,8 +78,11 @@ bool is_keyword(const std::string& word) {
   for (const StockKeyword& keyword : stock_keywords)
     if (word == keyword.name)
       return true;
+  for (const char* of_shapes : {"scale", "spheres", "mass"}) // of `shape file` and `shape stl`, too
+    if (word == of_shapes)
+      return false;
   for (const OtherKeyword& keyword : other_keywords)
-    if (word == keyword.name && word != "scale") // a word of `shape file`, too
+    if (word == keyword.name)
       return true;
   return word == "shape" || word == "diameter" || word == "orientation" || word == "density";
 }
