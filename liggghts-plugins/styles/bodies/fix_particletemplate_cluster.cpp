@@ -203,6 +203,25 @@ TemplateArguments::TemplateArguments(LAMMPS* lmp, int narg, char** arg) {
     refuse("no shape: write for example `shape cube 64`");
 }
 
+namespace {
+
+/// A misspelt diameter stands among the words of the shape, which then has none: what the shape does not read, or
+/// nothing.
+std::string word_after_shape(const TemplateArguments& arguments) {
+  if (arguments.diameter > 0)
+    return {};
+  std::size_t used = 0;
+  try {
+    shape::Notes notes;
+    shape::make_shape(arguments.shape_keywords, 0, used, 1., notes);
+  } catch (const std::invalid_argument&) {
+    return {};
+  }
+  return used < arguments.shape_keywords.size() ? arguments.shape_keywords[used] : "";
+}
+
+} // namespace
+
 FixParticletemplateCluster::FixParticletemplateCluster(LAMMPS* lmp, const TemplateArguments& arguments)
     : FixTemplateSphere(lmp, static_cast<int>(arguments.stock.size()), const_cast<char**>(arguments.stock.data())),
       density_(arguments.density), orientation_(arguments.orientation) {
@@ -220,6 +239,8 @@ FixParticletemplateCluster::FixParticletemplateCluster(LAMMPS* lmp, const Templa
     pdf_radius->set_params<RANDOM_CONSTANT>(shape.bounding_radius());
     shape_ = std::make_unique<shape::ClusterShape>(std::move(shape));
   } catch (const std::invalid_argument& problem) {
+    if (const std::string word = word_after_shape(arguments); !word.empty())
+      fail(lmp, id, "unknown word '" + word + "' after the shape: diameter and orientation may follow");
     fail(lmp, id, problem.what());
   }
   volume_expect = volume_;

@@ -326,14 +326,12 @@ void FixTimestepLimit::report(const Limit& limit) {
 }
 
 void FixTimestepLimit::post_run() {
-  if (worst_ == said_worst_)
+  if (worst_ == said_worst_) // at first 0: nothing has touched or moved
     return;
   said_worst_ = worst_;
   say("fix " + std::string(id) + " timestep/limit: the time step was at most " + short_number(worst_) +
-          " of the critical step" +
-          (worst_ > 0 ? " (at step " + std::to_string(worst_at_) + ": " + worst_of_ + ")"
-                      : ": nothing touched or moved") +
-          "; safety allows " + short_number(safety_) + (worst_ > safety_ ? ", WARNING: exceeded" : ""),
+          " of the critical step (at step " + std::to_string(worst_at_) + ": " + worst_of_ + "); safety allows " +
+          short_number(safety_) + (worst_ > safety_ ? ", WARNING: exceeded" : ""),
       true);
 }
 

@@ -65,9 +65,9 @@ class FixTimestepLimit : public LAMMPS_NS::Fix {
   Limit limit_{};
   double worst_ = 0; ///< largest step / critical step of all evaluations
   LAMMPS_NS::bigint worst_at_ = 0;
-  std::string worst_of_;   ///< what set it
-  double said_worst_ = -1; ///< at the end of the last run
-  double reported_ = 0.0;  ///< critical step of the last report
+  std::string worst_of_;  ///< what set it
+  double said_worst_ = 0; ///< at the end of the last run
+  double reported_ = 0.0; ///< critical step of the last report
   FixClusterBodies* bodies_ = nullptr;
   bool pair_shares_ = false;
   std::vector<Touching> touching_; ///< sub-contacts of the pair at hand
