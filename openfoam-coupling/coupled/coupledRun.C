@@ -4,8 +4,10 @@
 #include "coupled/coupledRun.H"
 
 #include "coupled/appliedForces.H"
+#include "coupled/caseFiles.H"
 #include "coupled/embeddedDem.h"
 #include "coupled/fluidCheckpoint.H"
+#include "coupled/periodicDirections.H"
 #include "coupled/statedTerms.H"
 #include "support/arithmeticFault.H"
 #include "support/inputError.H"
@@ -16,8 +18,6 @@
 
 #include "OSspecific.H"
 #include "Time.H"
-#include "cyclicPolyPatch.H"
-#include "processorCyclicPolyPatch.H"
 
 #include <mpi.h>
 
@@ -62,15 +62,40 @@ link::Extents extentsOf(const fvMesh& mesh) {
     extents.low[k] = box.min()[k];
     extents.high[k] = box.max()[k];
   }
-  vector separated(Zero);
-  for (const polyPatch& patch : mesh.boundaryMesh())
-    if (isA<cyclicPolyPatch>(patch) || isA<processorCyclicPolyPatch>(patch))
-      for (const vector& area : patch.faceAreas())
-        separated = max(separated, cmptMag(area) / mag(area));
-  reduce(separated, maxOp<vector>());
+  const Vector<label> periodic = periodicDirections(mesh);
   for (direction k = 0; k < 3; ++k)
-    extents.periodic[k] = separated[k] > 0.5;
+    extents.periodic[k] = periodic[k];
   return extents;
+}
+
+} // namespace
+
+namespace {
+
+/// Entries that this combination of arguments does not read.
+void noteUnread(const dictionary& properties) {
+  std::string unread;
+  const auto unused = [&](const char* keyword, const std::string& why) {
+    if (properties.found(keyword))
+      unread += std::string(unread.empty() ? "" : ", ") + keyword + " (" + why + ")";
+  };
+  const word link(properties.getOrDefault<word>("link", "solver"));
+  if (link == "solver")
+    for (const char* keyword : {"address", "keys", "timeout", "wait"})
+      unused(keyword, "link is solver");
+  else
+    for (const char* keyword : {"demScript", "demLog"})
+      unused(keyword, "link is socket: the script runs in a job of its own");
+  const word method(properties.getOrDefault<word>("voidFraction", "diffusion"));
+  if (method != "diffusion")
+    for (const char* keyword : {"diffusionSteps", "tolerance"})
+      unused(keyword, "voidFraction is " + method);
+  if (method == "centre" || method == "divided")
+    unused("length", "voidFraction is " + method);
+  if (!unread.empty())
+    note(std::string(properties.name()) + ": without effect: " + unread);
+  if (const dictionary* runIn = properties.findDict("runIn"))
+    refuseUnknownKeywords(*runIn, {"steps", "deltaT"});
 }
 
 } // namespace
@@ -78,7 +103,8 @@ link::Extents extentsOf(const fvMesh& mesh) {
 coupledRun::coupledRun(fvMesh& mesh, bool verbose, bool resume)
     : mesh_(mesh), time_(const_cast<Time&>(mesh.time())), properties_(propertiesFile(mesh.time())), verbose_(verbose),
       resume_(resume), traps_(fegetexcept()), semiImplicit_(readMomentum(properties_)),
-      method_(readVoidFraction(properties_)), timeStep_(time_), interval_(time_.controlDict().get<scalar>("deltaT")) {}
+      method_(readVoidFraction(properties_)), timeStep_(time_), writer_(time_),
+      interval_(time_.controlDict().get<scalar>("deltaT")) {}
 
 coupledRun::~coupledRun() = default;
 
@@ -94,6 +120,7 @@ void coupledRun::run() {
   refuseUnknownKeywords(properties_, {"link", "demScript", "demLog", "voidFraction", "length", "diffusionSteps",
                                       "momentum", "mostSolid", "fractionFloor", "tolerance", "report", "runIn",
                                       "address", "keys", "timeout", "wait"});
+  noteUnread(properties_);
   const word link(properties_.getOrDefault<word>("link", "solver"));
   if (link != "solver" && link != "socket")
     throw inputError(properties_, "link", link, "use solver or socket");
@@ -105,7 +132,9 @@ void coupledRun::run() {
     hostScript();
   else
     serveSocket();
-  time_.writeNow();
+  time_.functionObjects().end();
+  writer_.writeNow();
+  writer_.finish();
 }
 
 void coupledRun::hostScript() {
@@ -140,7 +169,7 @@ void coupledRun::serveSocket() {
   } catch (const link::Refusal&) {
     // What the flow has reached is kept.
     if (exchange_)
-      time_.writeNow();
+      writer_.writeNow();
     throw;
   }
   if (!flow_)

@@ -3,6 +3,7 @@
 // A coupled run goes on from what it kept.
 #include "coupled/coupledRun.H"
 
+#include "coupled/caseFiles.H"
 #include "coupled/fluidCheckpoint.H"
 #include "support/processGuards.H"
 
@@ -54,6 +55,7 @@ void coupledRun::resumeFrom(const link::CheckpointMark& mark) {
   flow_->resume(facts.get<scalar>("drive"));
   requests_.resume(unsigned(facts.get<label>("asked")));
   const dictionary report = facts.subDict("report");
+  startFunctionObjects(time_);
   report_ = std::make_unique<couplingReport>(mesh_, dem_, reportEvery(), &report);
 }
 

@@ -34,8 +34,10 @@ void coupledRun::advance() {
   overlap_.fields = {};
   overlap_.applied->complete(flow_->alpha(), time_.deltaTValue() / interval_, overlap_.fields);
   overlap_.seconds = watch.lap();
+  if (report_ ? report_->due() : true)
+    flow_->momentumResidual();
   if (due)
-    time_.writeNow();
+    writer_.writeNow();
 }
 
 // The flow received alpha f of a shared force density f, and the particles were to get (1 - alpha) f with the fraction

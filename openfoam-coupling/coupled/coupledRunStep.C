@@ -4,6 +4,8 @@
 #include "coupled/coupledRun.H"
 
 #include "coupled/appliedForces.H"
+#include "coupled/caseFiles.H"
+#include "coupled/flowMeasures.H"
 #include "flow/feedbackShares.H"
 #include "support/inputError.H"
 #include "support/processGuards.H"
@@ -26,6 +28,8 @@ constexpr double kDiffusionDiameters = 3.0;
 constexpr double kGaussianDiameters = 1.0;
 /// One implicit step leaves a cusp that a particle feels while it crosses cells.
 constexpr label kDiffusionSteps = 2;
+/// Share of the largest force below which inertia counts as none at the end of a run-in.
+constexpr scalar kSteady = 0.01;
 
 } // namespace
 
@@ -75,11 +79,17 @@ void coupledRun::runIn() {
     ++time_;
     flow_->advance();
   }
+  if (steps > 0)
+    flow_->momentumResidual();
+  const scalar unsteadiness = steps > 0 ? flow_->unsteadiness() : 0;
   time_.setDeltaT(usual, false);
   time_.setTime(start, index);
   messageStream::level = std::max(messageStream::level, 1);
-  Info << "run-in of the fluid: " << steps << " steps of " << step << " s, dp/dz " << flow_->drivingPressureGradient()
+  Info << "run-in of the fluid: " << steps << " steps of " << step << " s, dp/dz " << pressureGradientOf(*flow_)
        << " Pa/m" << endl;
+  if (unsteadiness > kSteady)
+    Info << "warning: the run-in did not reach a steady flow: in its last step the inertia of the fluid is "
+         << 100 * unsteadiness << " % of the largest force; give runIn more steps or longer ones" << endl;
 }
 
 void coupledRun::checkFinite(const link::CouplingStep& couplingStep) const {
@@ -99,6 +109,7 @@ void coupledRun::checkFinite(const link::CouplingStep& couplingStep) const {
 void coupledRun::begin(const link::CouplingStep& couplingStep) {
   makeExchange(couplingStep);
   runIn();
+  startFunctionObjects(time_);
   report_ = std::make_unique<couplingReport>(mesh_, dem_, reportEvery());
 }
 
@@ -148,9 +159,12 @@ void coupledRun::setFraction(const scalarField& before, const scalarField& after
 // From the last coupling step to this one; `left` after the first step [s]. Returns whether fields are due to be
 // written.
 bool coupledRun::takeSteps(scalar left, const scalarField& before, const scalarField& after, appliedForces& applied) {
-  const quiet silence(verbose_);
   for (bool due = false;;) {
-    flow_->advance();
+    {
+      const quiet silence(verbose_);
+      flow_->advance();
+    }
+    executeFunctionObjects();
     due = due || time_.writeTime();
     if (!(left > 0))
       return due;
@@ -159,6 +173,10 @@ bool coupledRun::takeSteps(scalar left, const scalarField& before, const scalarF
     ++time_;
     setFraction(before, after, 1 - left / interval_);
   }
+}
+
+void coupledRun::executeFunctionObjects() {
+  time_.functionObjects().execute();
 }
 
 int coupledRun::meet(const link::CouplingStep& couplingStep, const link::ParticleArrays& particles,
@@ -204,14 +222,14 @@ int coupledRun::meet(const link::CouplingStep& couplingStep, const link::Particl
   seconds.exchange += watch.lap();
   report_->add(*flow_, *exchange_, couplingStep, seconds, Zero);
   if (due)
-    time_.writeNow();
+    writer_.writeNow();
   return returnReduce(label(link::stop_signal()), maxOp<label>());
 }
 
 void coupledRun::run_ended() {
   if (!report_)
     return;
-  report_->finish();
+  report_->finish(*flow_);
   requests_.printSums();
 }
 

@@ -3,6 +3,7 @@
 // Formats the balances and costs of a coupled run.
 #include "coupled/couplingReport.H"
 
+#include "coupled/flowMeasures.H"
 #include "support/inputError.H"
 
 #include "OSspecific.H"
@@ -95,7 +96,8 @@ void couplingReport::openTable(const dictionary* earlier) {
            "bed_height,bed_area,fastest_particle,least_fraction,courant,continuity_error,volume_error,impulse_error,"
            "pressure_error,dem_seconds,fluid_seconds,exchange_seconds,link_seconds,"
            "inserted,left,inserted_mass,mass,global_continuity_error,"
-           "momentum_x,momentum_y,momentum_z,fastest_fluid\n";
+           "momentum_x,momentum_y,momentum_z,fastest_fluid"
+        << flowMeasures::columns(mesh_) << '\n';
   csv_->precision(13);
 }
 
@@ -115,20 +117,6 @@ dictionary couplingReport::state() const {
   state.add("link", parts[3]);
   state.add("tableBytes", csv_ ? scalar(csv_->tellp()) : 0.0);
   return state;
-}
-
-// Between inlet and outlet the mean pressures of the two ends tell what the section costs.
-double couplingReport::pressureDrop(const averagedFlow& flow) const {
-  const label inlet = mesh_.boundaryMesh().findPatchID("inlet");
-  const label outlet = mesh_.boundaryMesh().findPatchID("outlet");
-  // Periodic ends cost nothing by themselves, and are empty where they lie between ranks.
-  if (flow.drivingPressureGradient() != 0 || inlet < 0 || outlet < 0 || mesh_.boundaryMesh()[inlet].coupled())
-    return flow.drivingPressureGradient();
-  const auto mean = [&](label patch) {
-    const scalarField& areas = mesh_.magSf().boundaryField()[patch];
-    return gSum(scalarField(areas * flow.p().boundaryField()[patch])) / gSum(areas);
-  };
-  return flow.rho() * (mean(inlet) - mean(outlet)) / length_;
 }
 
 // What is on its way from one side to the other counts: the force that semi-implicit drag held back, and the pressure
@@ -196,7 +184,8 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
   if (initially_ < 0)
     initially_ = totals.particles - totals.inserted;
   const std::int64_t left = initially_ + totals.inserted - totals.particles;
-  const double gradient = pressureDrop(flow);
+  const flowMeasures measures(flow);
+  const double gradient = measures.gradient;
   const double concentration = totals.volume / gSum(mesh_.V());
   const double flux = (vectorOf(totals.volume_velocity) & axis_) / length_;
   const double volumeError = relative(std::abs(balance.meshVolume - balance.particleVolume), balance.particleVolume);
@@ -210,6 +199,7 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
     Info << "warning: more solid than mostSolid allows in some cells: take smaller particles per cell, or voidFraction "
             "diffusion"
          << endl;
+  warn(flow, measures.Reynolds);
   if (!Pstream::master())
     return;
   *csv_ << mesh_.time().value() << ',' << totals.particles << ',' << meanVelocity << ',' << gradient << ','
@@ -221,20 +211,30 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
     *csv_ << ',' << part;
   *csv_ << ',' << totals.inserted << ',' << left << ',' << totals.inserted_mass << ',' << totals.mass << ','
         << globalContinuity << ',' << momentum.x() << ',' << momentum.y() << ',' << momentum.z() << ',' << fastestFluid
-        << std::endl;
+        << measures.values() << std::endl;
 
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   const double done =
       couplingStep.steps_total > 0 ? double(couplingStep.steps_done) / double(couplingStep.steps_total) : 0.0;
   std::printf("t %.4g s  %3.0f %%  left %.0f s | %lld particles, U %.4g m/s, dp/dz %.4g Pa/m, flux %.3g m3/s, fastest "
-              "%.3g m/s, alpha >= %.3f | errors: volume %.1e impulse %.1e pressure %.1e continuity %.1e\n",
+              "%.3g m/s, alpha >= %.3f | %s | errors: volume %.1e impulse %.1e pressure %.1e continuity %.1e\n",
               mesh_.time().value(), 100 * done, done > 0 ? elapsed * (1 - done) / done : 0.0,
               static_cast<long long>(totals.particles), meanVelocity, gradient, flux, totals.fastest, bed.minFraction,
-              volumeError, impulseError, pressureError, continuity);
+              measures.text().c_str(), volumeError, impulseError, pressureError, continuity);
   std::fflush(stdout);
 }
 
-void couplingReport::finish() const {
+void couplingReport::warn(averagedFlow& flow, scalar Reynolds) {
+  const std::string convergence = flow.convergence().news(mesh_.time().timeName());
+  const std::string turbulence = warnedOfTurbulence_ ? "" : turbulenceWarning(flow, Reynolds);
+  const std::string inlet = warnedOfInlet_ ? "" : inletWarning(flow);
+  warnedOfTurbulence_ = warnedOfTurbulence_ || !turbulence.empty();
+  warnedOfInlet_ = warnedOfInlet_ || !inlet.empty();
+  if (Pstream::master())
+    std::printf("%s%s%s", convergence.c_str(), turbulence.c_str(), inlet.c_str());
+}
+
+void couplingReport::finish(averagedFlow& flow) const {
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   const auto mean = [](double part) { return returnReduce(part, sumOp<scalar>()) / Pstream::nProcs(); };
   const auto line = [&](const char* name, const Seconds& part) {
@@ -258,6 +258,8 @@ void couplingReport::finish() const {
   }
   printLoad();
   printLink(link, dem, fluid);
+  if (Pstream::master())
+    std::printf("%s", flow.convergence().summary().c_str());
 }
 
 // The link beside what it links: a step of either side.

@@ -26,6 +26,9 @@ std::array<double, 3> threeOf(const double* values) {
   return {values[0], values[1], values[2]};
 }
 
+/// No bed of grains at rest is looser: below it maxSolid would move grains that lie where they are.
+constexpr double kLoosest = 0.4;
+
 /// Lanes of what particles bring.
 constexpr int kVolume = 0, kImpulse = 1, kDrag = 4, kBrought = 5;
 
@@ -40,8 +43,11 @@ Value linear(const Value& value, const Gradient& gradient, const vector& fromCen
 particleExchange::particleExchange(const fvMesh& mesh, const ExchangeSettings& settings)
     : mesh_(mesh), settings_(settings), particlePoints_(mesh), overflow_(mesh, settings.maxSolid),
       solidVolume_(mesh.nCells(), Zero), pressurePending_(mesh.nCells()), stressPending_(mesh.nCells()) {
-  if (!(settings.maxSolid > 0 && settings.maxSolid < 1))
-    throw wrong("mostSolid", settings.maxSolid, "give a fraction between 0 and 1, such as 0.74");
+  if (!(settings.maxSolid >= kLoosest && settings.maxSolid < 1))
+    throw wrong(
+        "mostSolid", settings.maxSolid,
+        "give a fraction from 0.4 on and below 1, such as 0.74; grains at rest fill more than 0.4 of a cell, and what "
+        "exceeds mostSolid is moved to other cells");
   if (!(settings.fractionFloor >= 0 && settings.fractionFloor < 1))
     throw wrong("fractionFloor", settings.fractionFloor, "give a fraction from 0 to below 1, such as 0.3");
   const bool spreads = settings.method == VoidFraction::diffusion || settings.method == VoidFraction::gaussian;

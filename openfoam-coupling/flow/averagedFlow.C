@@ -4,6 +4,7 @@
 // back.
 #include "flow/averagedFlow.H"
 
+#include "coupled/caseFiles.H"
 #include "flow/deferredConvection.H"
 #include "flow/extrapolatedVelocity.H"
 #include "flow/facewardForce.H"
@@ -28,6 +29,7 @@
 #include "rheology/yieldStressViscosity.H"
 #include "support/inputError.H"
 #include "support/rankSums.H"
+#include "wallFvPatch.H"
 #include "zeroGradientFvPatchFields.H"
 
 #include <chrono>
@@ -110,17 +112,14 @@ averagedFlow::coupledFields::coupledFields(const fvMesh& mesh, const surfaceScal
 averagedFlow::averagedFlow(fvMesh& mesh, particles presence, stressShare share)
     : mesh_(mesh), pimple_(mesh), share_(share), U_(input("U", mesh), mesh), p_(input("p", mesh), mesh),
       phi_(state("phi", mesh), fvc::flux(U_)),
-      coupled_(presence == particles::coupled ? new coupledFields(mesh, phi_) : nullptr),
-      transportProperties_(
-          IOobject("transportProperties", mesh.time().constant(), mesh, IOobject::MUST_READ, IOobject::NO_WRITE)),
-      viscosity_(viscosityModel::New("nu", transportProperties_, U_, phi_)), rho_(readDensity(transportProperties_)),
-      drive_(mesh, rho_) {
-  const word where = transportProperties_.getOrDefault<word>("faceViscosity", "strainRate");
+      coupled_(presence == particles::coupled ? new coupledFields(mesh, phi_) : nullptr), transport_(U_, phi_),
+      rho_(readDensity(transport_)), drive_(mesh, rho_) {
+  const word where = transport_.getOrDefault<word>("faceViscosity", "strainRate");
   if (where != "strainRate" && where != "interpolated") {
-    throw inputError(transportProperties_, "faceViscosity", where, "give strainRate or interpolated");
+    throw inputError(transport_, "faceViscosity", where, "give strainRate or interpolated");
   }
   if (where == "strainRate") {
-    faceLaw_ = dynamic_cast<const viscosityModels::yieldStressViscosity*>(&viscosity_());
+    faceLaw_ = dynamic_cast<const viscosityModels::yieldStressViscosity*>(&rheology());
   }
   extrapolates_ = faceLaw_ && word(mesh_.ddtScheme("ddt(U)")) == secondOrderTime;
   keepOldTimes(U_);
@@ -129,10 +128,30 @@ averagedFlow::averagedFlow(fvMesh& mesh, particles presence, stressShare share)
   }
   keepOldTimes(phi_);
   mesh_.setFluxRequired(p_.name());
+  checkBoundaryTypes(U_, p_);
+  checkStatedDensities(mesh_.time(), rho_);
+  offerLookups();
   if (p_.needReference()) {
     // The level of the pressure is arbitrary here; one cell of the whole mesh fixes it.
     pRefCell_ = Pstream::master() ? pimple_.dict().getOrDefault<label>("pRefCell", 0) : -1;
     pRefValue_ = pimple_.dict().getOrDefault<scalar>("pRefValue", 0);
+  }
+}
+
+void averagedFlow::offerLookups() {
+  forAll(U_.boundaryField(), patchi) {
+    const word& U = U_.boundaryField()[patchi].type();
+    if (U == "interstitialInletVelocity" && !coupled_.valid() && !noParticles_.valid()) {
+      noParticles_.reset(new volScalarField(scratch("alpha", mesh_), mesh_, dimensionedScalar("one", dimless, 1),
+                                            zeroGradientFvPatchScalarField::typeName));
+    }
+    if (U == "fixedShearStress" || p_.boundaryField()[patchi].type() == "porousBafflePressure") {
+      transport_.offerStress();
+    }
+  }
+  const dictionary* const functions = mesh_.time().controlDict().findDict("functions");
+  if (functions && !functions->empty()) {
+    transport_.offerStress();
   }
 }
 
@@ -177,7 +196,7 @@ void averagedFlow::resetFractionHistory() {
 
 void averagedFlow::resume(scalar G) {
   drive_.resume(G);
-  viscosity_->correct();
+  transport_.correct();
   if (coupled_.valid()) {
     coupled_->alphaf = fvc::interpolate(coupled_->alpha);
     coupled_->alphaPhi = coupled_->alphaf * phi_;
@@ -186,26 +205,34 @@ void averagedFlow::resume(scalar G) {
 
 void averagedFlow::advance() {
   drive_.update();
+  offerLookups(); // function objects may come during a run
   if (coupled_.valid()) {
     checkSolidVolume();
     coupled_->alphaf = fvc::interpolate(coupled_->alpha);
     coupled_->facesForce == facewardForce(coupled_->particleForce);
     chooseReturned();
   }
+  convergence_.beginStep();
+  label outerCorrectors = 0;
+  scalar fastest = 0;
   while (pimple_.loop()) {
-    tmp<fvVectorMatrix> tUEqn = momentumMatrix();
+    ++outerCorrectors;
+    tmp<fvVectorMatrix> tUEqn = momentumMatrix(extrapolates_ && pimple_.firstIter());
     fvVectorMatrix& UEqn = tUEqn.ref();
+    UEqn.relax();
     predictVelocity(UEqn);
     while (pimple_.correct()) {
       correctPressure(UEqn);
     }
     drive_.correct(U_, coupled_.valid() ? &coupled_->alpha : nullptr);
-    refuseBlowUp(gMax(mag(U_.primitiveField())()) < fastestFlow);
+    fastest = gMax(mag(U_.primitiveField())());
+    refuseBlowUp(fastest < fastestFlow);
     if (pimple_.turbCorr()) {
       const stopwatch watch(cost_.rheology);
-      viscosity_->correct();
+      transport_.correct();
     }
   }
+  convergence_.endStep(outerCorrectors, pimple_.dict(), fastest);
   if (coupled_.valid()) {
     storeWithheldForce();
   }
@@ -241,14 +268,14 @@ tmp<surfaceScalarField> averagedFlow::faceViscosity(const volVectorField& U, con
   if (faceLaw_) {
     return faceLaw_->faceNu(U, gradU);
   }
-  return fvc::interpolate(viscosity_->nu(), "interpolate(nuEff)");
+  return fvc::interpolate(rheology().nu(), "interpolate(nuEff)");
 }
 
 tmp<volVectorField> averagedFlow::transposedStress(const surfaceScalarField& nu, const volTensorField& gradU) const {
   if (faceLaw_) {
     return fvc::div(nu * fvc::dotInterpolate(mesh_.Sf(), dev2(T(gradU))));
   }
-  return fvc::div(viscosity_->nu() * dev2(T(gradU)), transposedStressScheme);
+  return fvc::div(rheology().nu() * dev2(T(gradU)), transposedStressScheme);
 }
 
 tmp<fvVectorMatrix> averagedFlow::convection(const surfaceScalarField& flux, const surfaceScalarField& nu) {
@@ -259,9 +286,8 @@ tmp<fvVectorMatrix> averagedFlow::convection(const surfaceScalarField& flux, con
   return matrix;
 }
 
-tmp<fvVectorMatrix> averagedFlow::momentumMatrix() {
+tmp<fvVectorMatrix> averagedFlow::momentumMatrix(bool ahead) {
   const stopwatch watch(cost_.momentum);
-  const bool ahead = extrapolates_ && pimple_.firstIter();
   const tmp<volVectorField> U = ahead ? extrapolatedVelocity(U_) : tmp<volVectorField>(U_);
   const tmp<volTensorField> gradU = fvc::grad(U(), "grad(U)");
   const tmp<surfaceScalarField> nu = faceViscosity(U(), gradU());
@@ -291,7 +317,6 @@ tmp<fvVectorMatrix> averagedFlow::momentumMatrix() {
           V[celli] * (c.facesForce[celli] + c.returned[celli] + c.exchange[celli] * Uold[celli] + alpha[celli] * G);
     }
   }
-  tUEqn.ref().relax();
   return tUEqn;
 }
 
@@ -303,9 +328,9 @@ void averagedFlow::predictVelocity(fvVectorMatrix& UEqn) {
     return;
   }
   if (alpha) {
-    solve(UEqn == -(*alpha) * fvc::grad(p_));
+    convergence_.solved(solve(UEqn == -(*alpha) * fvc::grad(p_)));
   } else {
-    solve(UEqn == -fvc::grad(p_));
+    convergence_.solved(solve(UEqn == -fvc::grad(p_)));
   }
   const vector dG = drive_.correct(U_, alpha) * drive_.axis();
   if (alpha) {
@@ -372,7 +397,7 @@ void averagedFlow::correctPressure(fvVectorMatrix& UEqn) {
     }
     fvScalarMatrix& pEqn = tpEqn.ref();
     pEqn.setReference(pRefCell_, pRefValue_);
-    pEqn.solve(mesh_.solver(p_.select(pimple_.finalInnerIter())));
+    convergence_.solved(pEqn.solve(mesh_.solver(p_.select(pimple_.finalInnerIter()))));
     if (pimple_.finalNonOrthogonalIter()) {
       if (c) {
         c->alphaPhi = c->alphaf * phiHbyA - pEqn.flux();
@@ -434,6 +459,42 @@ tmp<volVectorField> averagedFlow::stressDivergence() const {
   const tmp<surfaceScalarField> nu = faceViscosity(U_, gradU());
   return dimensionedScalar("rho", dimDensity, rho_) *
          (fvc::laplacian(nu(), U_, diffusionScheme) + transposedStress(nu(), gradU()));
+}
+
+scalar averagedFlow::momentumResidual() {
+  if (residualAt_ == mesh_.time().timeIndex()) {
+    return residual_;
+  }
+  residualAt_ = mesh_.time().timeIndex();
+  const scalarField& V = mesh_.V().field();
+  vectorField pressure(fvc::grad(p_)().primitiveField() * V);
+  vectorField inertia;
+  if (coupled_.valid()) {
+    pressure *= coupled_->alpha.primitiveField();
+    inertia = fvc::ddt(coupled_->alpha, U_)().primitiveField() * V;
+  } else {
+    inertia = fvc::ddt(U_)().primitiveField() * V;
+  }
+  // fvMatrix::residual counts coupled patches twice.
+  const tmp<fvVectorMatrix> matrix = momentumMatrix(false);
+  const vectorField missing(
+      V * (matrix->H()().primitiveField() - matrix->A()().primitiveField() * U_.primitiveField()) - pressure);
+  pressure -= drive_.acceleration().value() * V;
+  const tmp<volTensorField> gradU = fvc::grad(U_, "grad(U)");
+  scalar walls = 0;
+  forAll(mesh_.boundary(), patchi) {
+    if (isA<wallFvPatch>(mesh_.boundary()[patchi])) {
+      walls += sum(
+          mag(rheology().nu(patchi) * (mesh_.boundary()[patchi].Sf() & dev(twoSymm(gradU().boundaryField()[patchi])))));
+    }
+  }
+  std::array<double, 4> sums{sum(mag(missing)), sum(mag(pressure)), sum(mag(inertia)), walls};
+  eccentra::exchange::sumOverRanks(sums);
+  const scalar largest = max(max(sums[1], sums[2]), sums[3]);
+  residual_ = largest > VSMALL && convergence_.moving() ? sums[0] / largest : 0;
+  unsteadiness_ = largest > VSMALL && convergence_.moving() ? sums[2] / largest : 0;
+  convergence_.measured(residual_);
+  return residual_;
 }
 
 vector averagedFlow::superficialVelocity() const {

@@ -4,6 +4,7 @@
 #include "flow/drivingGradient.H"
 
 #include "calculatedFvPatchFields.H"
+#include "coupled/periodicDirections.H"
 #include "support/inputError.H"
 
 #include "support/rankSums.H"
@@ -23,6 +24,36 @@ direction componentOf(const dictionary& dict, const vector& axis) {
   throw inputError(dict, "direction", axis, "give one of (1 0 0), (0 1 0), (0 0 1)");
 }
 
+/// The gradient acts on a section that repeats itself: across walls or ends the pressure would balance it.
+void refuseClosedDirection(const dictionary& dict, const fvMesh& mesh, direction component, const vector& axis) {
+  const Vector<label> periodic = periodicDirections(mesh);
+  if (periodic[component]) {
+    return;
+  }
+  std::string open;
+  const char* const names[] = {"(1 0 0)", "(0 1 0)", "(0 0 1)"};
+  for (direction c = 0; c < vector::nComponents; ++c) {
+    if (periodic[c]) {
+      open += std::string(open.empty() ? "" : " or ") + names[c];
+    }
+  }
+  throw inputError(dict, "direction", axis,
+                   "the mesh does not repeat itself in it; expected a direction with periodic ends, " +
+                       (open.empty()
+                            ? "of which this mesh has none: give drive { type none; } and let inlet and outlet "
+                              "drive the flow, or make the mesh with ends periodic"
+                            : "which is " + open));
+}
+
+/// Entries that this type of drive does not read.
+void refuseUnreadEntries(const dictionary& dict, const word& type) {
+  if (type == "meanVelocity") {
+    refuseUnknownKeywords(dict, {"type", "Ubar", "UbarCoeffs", "direction", "initialGradient"});
+  } else {
+    refuseUnknownKeywords(dict, {"type", "gradient", "gradientCoeffs", "direction"});
+  }
+}
+
 IOobject flowProperties(const fvMesh& mesh) {
   return IOobject("flowProperties", mesh.time().constant(), mesh, IOobject::READ_IF_PRESENT, IOobject::NO_WRITE, false);
 }
@@ -33,6 +64,7 @@ drivingGradient::drivingGradient(const fvMesh& mesh, scalar rho)
     : mesh_(mesh), rho_(rho), state_(IOobject("drivingGradient", mesh.time().timeName(), "uniform", mesh,
                                               IOobject::READ_IF_PRESENT, IOobject::NO_WRITE)) {
   const IOdictionary properties(flowProperties(mesh));
+  refuseUnknownKeywords(properties, {"drive", "report"});
   if (!properties.found("drive")) {
     return;
   }
@@ -43,6 +75,10 @@ drivingGradient::drivingGradient(const fvMesh& mesh, scalar rho)
   }
   axis_ = dict.getOrDefault<vector>("direction", axis_);
   component_ = componentOf(dict, axis_);
+  if (name == "meanVelocity" || name == "pressureGradient") {
+    refuseUnreadEntries(dict, name);
+    refuseClosedDirection(dict, mesh, component_, axis_);
+  }
   if (name == "meanVelocity") {
     type_ = type::meanVelocity;
     value_ = Function1<scalar>::New("Ubar", dict);

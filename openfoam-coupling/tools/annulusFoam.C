@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // annulusFoam: flow of a generalised-Newtonian fluid in an annulus (or any other mesh), alone or with particles.
+#include "coupled/caseFiles.H"
 #include "coupled/coupledRun.H"
+#include "coupled/fieldWriter.H"
+#include "coupled/openfoamFolder.H"
 #include "flow/averagedFlow.H"
 #include "flow/flowProgress.H"
 #include "flow/timeStepControl.H"
@@ -21,31 +24,37 @@ void run(const argList& args) {
     throw inputError("no case in " + args.path() + ": give its folder with -case, or change into it");
   }
   Time runTime(Time::controlDictName, args);
+  checkCaseFiles(runTime);
   fvMesh mesh(IOobject(fvMesh::defaultRegion, runTime.timeName(), runTime, IOobject::MUST_READ));
+  checkSolutionControls(mesh.solutionDict());
   if (eccentra::coupledRun::wanted(runTime)) {
     eccentra::coupledRun(mesh, args.found("verbose"), args.found("resume")).run();
     return;
   }
   averagedFlow flow(mesh, averagedFlow::particles::none);
   timeStepControl timeStep(runTime);
+  fieldWriter writer(runTime);
   flowProgress progress(runTime, flow, args.found("verbose"));
   eccentra::endOnArithmeticFault(
       "annulusFoam: error: the flow has blown up (a division by zero, an overflow or a value "
       "that is no number): reduce deltaT, or check the numbers of the boundary conditions\n");
+  startFunctionObjects(runTime);
   while (runTime.run()) {
     timeStep.adjust(flow.CourantNo());
     ++runTime;
     progress.silence();
     flow.advance();
     progress.report();
-    runTime.write();
+    writer.write();
   }
   progress.summary();
+  writer.finish();
 }
 
 } // namespace
 
 int main(int argc, char* argv[]) {
+  eccentra::refuseUnusableCaseFolder(argc, argv);
   argList::addNote("Flow of a Herschel-Bulkley fluid in an annulus, alone or with particles");
   argList::noBanner();
   argList::addBoolOption("verbose", "print the residuals of every linear solve");

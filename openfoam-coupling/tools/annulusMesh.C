@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // annulusMesh: system/annulusMeshDict -> constant/polyMesh and constant/g of an inclined eccentric annulus.
+#include "coupled/openfoamFolder.H"
 #include "mesh/annulus_grid.h"
 #include "support/arithmeticFault.H"
 #include "support/inputError.H"
@@ -17,6 +18,9 @@
 #include "unitConversion.H"
 #include "wallPolyPatch.H"
 
+#include <sstream>
+#include <unistd.h>
+
 using namespace Foam;
 
 namespace {
@@ -24,6 +28,7 @@ namespace {
 const scalar standardGravity = 9.81; // m/s2, the value of the reference cases
 const scalar largestEccentricity = 0.95;
 const label fewestCellsAround = 8;
+const double bytesPerCell = 1100;     // at the peak, measured
 const unsigned coordinateDigits = 15; // of the points in ASCII: areas of thin cells are differences of these
 
 struct Annulus {
@@ -41,6 +46,26 @@ scalar readAbove(const dictionary& dict, const word& keyword, scalar above) {
     throw inputError(dict, keyword, value, "give a number above " + std::to_string(above));
   }
   return value;
+}
+
+/// A mesh has some three faces a cell, which OpenFOAM numbers with 32 bits, and lies in the memory of one process.
+void refuseTooManyCells(const dictionary& dict, const Vector<label>& cells) {
+  const double number = double(cells.x()) * double(cells.y()) * double(cells.z());
+  std::ostringstream text;
+  if (3 * number + double(cells.x()) * cells.y() + double(cells.y()) * cells.z() > double(labelMax)) {
+    text << "these are " << number << " cells, whose faces are more than OpenFOAM can number (" << labelMax
+         << "); give fewer cells";
+    throw inputError(dict, "cells", cells, text.str());
+  }
+  const double bytes = bytesPerCell * number;
+  const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
+  if (bytes > memory) {
+    text.precision(3);
+    text << "these are " << number << " cells, for which the mesh takes some " << 1e-9 * bytes
+         << " GB, and this machine has " << 1e-9 * memory
+         << " GB; give fewer cells, or make the mesh on a larger machine";
+    throw inputError(dict, "cells", cells, text.str());
+  }
 }
 
 Annulus readAnnulus(const dictionary& dict) {
@@ -68,6 +93,7 @@ Annulus readAnnulus(const dictionary& dict) {
   if (cells.x() < 1 || cells.y() < fewestCellsAround || cells.z() < 1) {
     throw inputError(dict, "cells", cells, "give (radial around axial), at least (1 8 1)");
   }
+  refuseTooManyCells(dict, cells);
   annulus.options.radial = cells.x();
   annulus.options.around = cells.y();
   annulus.axialCells = cells.z();
@@ -148,22 +174,27 @@ face quad(label a, label b, label c, label d) {
 /// sense from the same first point, as a cyclic pair wants.
 faceListList patchFaces(const Numbering& number) {
   faceListList patches(4);
+  patches[0].setSize(number.around() * number.axial());
+  patches[1].setSize(number.around() * number.axial());
+  patches[2].setSize(number.radial() * number.around());
+  patches[3].setSize(number.radial() * number.around());
+  label side = 0, end = 0;
   for (label k = 0; k < number.axial(); ++k) {
     for (label j = 0; j < number.around(); ++j) {
-      patches[0].append(quad(number.point(0, j, k), number.point(0, j, k + 1), number.point(0, j + 1, k + 1),
-                             number.point(0, j + 1, k)));
+      patches[0][side] = quad(number.point(0, j, k), number.point(0, j, k + 1), number.point(0, j + 1, k + 1),
+                              number.point(0, j + 1, k));
       const label i = number.radial();
-      patches[1].append(quad(number.point(i, j, k), number.point(i, j + 1, k), number.point(i, j + 1, k + 1),
-                             number.point(i, j, k + 1)));
+      patches[1][side++] = quad(number.point(i, j, k), number.point(i, j + 1, k), number.point(i, j + 1, k + 1),
+                                number.point(i, j, k + 1));
     }
   }
   for (label i = 0; i < number.radial(); ++i) {
     for (label j = 0; j < number.around(); ++j) {
-      patches[2].append(quad(number.point(i, j, 0), number.point(i, j + 1, 0), number.point(i + 1, j + 1, 0),
-                             number.point(i + 1, j, 0)));
+      patches[2][end] = quad(number.point(i, j, 0), number.point(i, j + 1, 0), number.point(i + 1, j + 1, 0),
+                             number.point(i + 1, j, 0));
       const label k = number.axial();
-      patches[3].append(quad(number.point(i, j, k), number.point(i + 1, j, k), number.point(i + 1, j + 1, k),
-                             number.point(i, j + 1, k)));
+      patches[3][end++] = quad(number.point(i, j, k), number.point(i + 1, j, k), number.point(i + 1, j + 1, k),
+                               number.point(i, j + 1, k));
     }
   }
   return patches;
@@ -229,6 +260,7 @@ void run(const argList& args) {
 } // namespace
 
 int main(int argc, char* argv[]) {
+  eccentra::refuseUnusableCaseFolder(argc, argv);
   argList::addNote(
       "Makes the mesh of an inclined eccentric annulus: system/annulusMeshDict -> constant/polyMesh, constant/g");
   argList::noParallel();

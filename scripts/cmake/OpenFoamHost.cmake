@@ -3,7 +3,7 @@
 # The stock OpenFOAM that Debian installs, as the interface target openfoam_host; its headers come from the source package.
 set(ECCENTRA_FOAM_HEADERS "${PROJECT_SOURCE_DIR}/build/openfoam-headers" CACHE PATH
   "Folder of flat header folders that scripts/setup makes from the Debian source package")
-if(NOT EXISTS "${ECCENTRA_FOAM_HEADERS}/finiteVolume/lnInclude/fvCFD.H")
+if(NOT EXISTS "${ECCENTRA_FOAM_HEADERS}/TurbulenceModels/phaseIncompressible/lnInclude")
   message(FATAL_ERROR "no OpenFOAM headers in ${ECCENTRA_FOAM_HEADERS}: run scripts/setup")
 endif()
 # Headers of another version than the installed library's compile, and then crash.
@@ -30,3 +30,15 @@ foreach(_library finiteVolume meshTools incompressibleTransportModels OpenFOAM P
   target_link_libraries(openfoam_host INTERFACE "${FOAM_${_library}_LIBRARY}")
 endforeach()
 target_link_libraries(openfoam_host INTERFACE MPI::MPI_CXX ${CMAKE_DL_LIBS} m)
+
+# The turbulence models of the same library, of which a laminar flow needs what function objects look up.
+add_library(openfoam_turbulence INTERFACE)
+target_link_libraries(openfoam_turbulence INTERFACE openfoam_host)
+foreach(_library turbulenceModels incompressible phaseIncompressible)
+  target_include_directories(openfoam_turbulence SYSTEM INTERFACE
+    "${ECCENTRA_FOAM_HEADERS}/TurbulenceModels/${_library}/lnInclude")
+endforeach()
+foreach(_library incompressibleTurbulenceModels turbulenceModels)
+  find_library(FOAM_${_library}_LIBRARY ${_library} REQUIRED)
+  target_link_libraries(openfoam_turbulence INTERFACE "${FOAM_${_library}_LIBRARY}")
+endforeach()

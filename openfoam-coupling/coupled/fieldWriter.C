@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// OpenFOAM does not see what the disk refuses when a file is closed: the end of each file tells.
+#include "coupled/fieldWriter.H"
+
+#include "support/inputError.H"
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+namespace Foam {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Written = std::map<fs::path, fs::file_time_type>;
+
+Written filesIn(const fs::path& folder) {
+  Written files;
+  std::error_code gone;
+  for (fs::recursive_directory_iterator it(folder, gone), end; !gone && it != end; it.increment(gone)) {
+    if (it->is_regular_file(gone)) {
+      files[it->path()] = it->last_write_time(gone);
+    }
+  }
+  return files;
+}
+
+/// The files that are new or changed since.
+std::vector<fs::path> changed(const fs::path& folder, const Written& before) {
+  std::vector<fs::path> files;
+  for (const auto& [path, when] : filesIn(folder)) {
+    const auto found = before.find(path);
+    if (found == before.end() || found->second != when) {
+      files.push_back(path);
+    }
+  }
+  return files;
+}
+
+/// Every file that OpenFOAM writes ends with a line of stars between slashes. Compressed ones end otherwise.
+bool whole(const fs::path& path) {
+  if (path.extension() == ".gz") {
+    return true;
+  }
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file.tellg();
+  constexpr std::streamoff kTail = 16;
+  file.seekg(std::max<std::streamoff>(0, size - kTail));
+  std::string tail(std::size_t(std::min(size, kTail)), ' ');
+  file.read(tail.data(), std::streamsize(tail.size()));
+  while (!tail.empty() && std::isspace(static_cast<unsigned char>(tail.back()))) {
+    tail.pop_back();
+  }
+  return file && tail.size() >= 2 && tail.substr(tail.size() - 2) == "//";
+}
+
+void removeAll(const std::vector<fs::path>& files, const fs::path& folder) {
+  std::error_code ignored;
+  for (const fs::path& file : files) {
+    fs::remove(file, ignored);
+  }
+  // Empty folders, the inner ones first; a folder with files of others stays.
+  std::vector<fs::path> folders{folder};
+  for (fs::recursive_directory_iterator it(folder, ignored), end; !ignored && it != end; it.increment(ignored)) {
+    if (it->is_directory(ignored)) {
+      folders.push_back(it->path());
+    }
+  }
+  for (auto it = folders.rbegin(); it != folders.rend(); ++it) {
+    if (fs::is_empty(*it, ignored)) {
+      fs::remove(*it, ignored);
+    }
+  }
+}
+
+} // namespace
+
+void fieldWriter::write() {
+  if (time_.writeTime()) {
+    attempt();
+  }
+}
+
+void fieldWriter::attempt() {
+  const fs::path folder(std::string(time_.timePath()));
+  const Written before = filesIn(folder);
+  std::string problem;
+  try {
+    if (!time_.writeNow()) {
+      problem = "a file could not be written";
+    }
+  } catch (const error& failure) {
+    problem = failure.message();
+  }
+  const std::vector<fs::path> files = changed(folder, before);
+  for (const fs::path& file : files) {
+    if (problem.empty() && !whole(file)) {
+      problem = file.string() + " could not be written to its end";
+    }
+  }
+  lastFailed_ = returnReduce(!problem.empty(), orOp<bool>());
+  if (!lastFailed_) {
+    return;
+  }
+  removeAll(files, folder);
+  ++lost_;
+  std::error_code unknown;
+  const fs::space_info space = fs::space(std::string(time_.path()), unknown);
+  // A reserve of the file system counts as full.
+  constexpr std::uintmax_t kFull = 1 << 20;
+  reason_ = !unknown && space.available < kFull ? "No space left on device" : problem;
+  for (char& c : reason_) {
+    c = c == '\n' ? ' ' : c;
+  }
+  if (Pstream::master()) {
+    std::cerr << "annulusFoam: warning: the fields of t = " << time_.timeName() << " s were not written to "
+              << folder.string() << " (" << reason_
+              << "): what was half written is removed, the run goes on; free space on the disk" << std::endl;
+  }
+}
+
+void fieldWriter::finish() const {
+  if (lastFailed_) {
+    throw inputError("the fields of the last time, " + time_.timeName() + " s, are not there (" + reason_ +
+                     "): free space on the disk and run again");
+  }
+  if (lost_ > 0) {
+    Info << "the fields of " << lost_ << " time(s) were not written: the disk was full" << endl;
+  }
+}
+
+} // namespace Foam

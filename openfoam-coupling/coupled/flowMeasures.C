@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Integrals over walls and ends of the mesh.
+#include "coupled/flowMeasures.H"
+
+#include "flow/averagedFlow.H"
+#include "rheology/slot_flow.h"
+#include "rheology/yieldStressViscosity.H"
+
+#include "fvcGrad.H"
+#include "wallPolyPatch.H"
+
+#include <sstream>
+
+namespace Foam {
+
+eccentra::rheology::HerschelBulkley kinematicLaw(const viscosityModel& model) {
+  if (const auto* ours = dynamic_cast<const viscosityModels::yieldStressViscosity*>(&model)) {
+    return ours->kinematic();
+  }
+  const dictionary& properties = model.viscosityProperties();
+  const word type(properties.get<word>("transportModel"));
+  const dictionary& coeffs = properties.optionalSubDict(type + "Coeffs");
+  // Dimensions vary with the index: the number alone counts.
+  const auto number = [&](const char* keyword) { return dimensionedScalar(keyword, coeffs.lookup(keyword)).value(); };
+  const auto index = [&] { return dimensionedScalar("n", dimless, coeffs).value(); };
+  if (type == "Newtonian") {
+    return {0, dimensionedScalar("nu", dimViscosity, properties).value(), 1, GREAT};
+  }
+  if (type == "powerLaw") {
+    return {0, number("k"), index(), GREAT};
+  }
+  if (type == "HerschelBulkley") {
+    return {number("tau0"), number("k"), index(), GREAT};
+  }
+  return {0, 0, 0, 0};
+}
+
+vector flowAxis(const averagedFlow& flow) {
+  return flow.drive().axis();
+}
+
+labelList wallPatches(const fvMesh& mesh) {
+  labelList walls;
+  forAll(mesh.boundaryMesh(), patchi) {
+    if (isA<wallPolyPatch>(mesh.boundaryMesh()[patchi])) {
+      walls.append(patchi);
+    }
+  }
+  return walls;
+}
+
+std::vector<wallLoad> wallLoads(const averagedFlow& flow) {
+  const fvMesh& mesh = flow.mesh();
+  const tmp<volTensorField> gradU = fvc::grad(flow.U(), "grad(U)");
+  std::vector<wallLoad> loads;
+  for (const label patchi : wallPatches(mesh)) {
+    const fvPatch& patch = mesh.boundary()[patchi];
+    const vectorField& Sf = patch.Sf();
+    const vectorField& Cf = patch.Cf();
+    const scalarField& magSf = patch.magSf();
+    const scalarField nu(flow.rheology().nu(patchi));
+    const tensorField& gradient = gradU().boundaryField()[patchi];
+    const scalarField& p = flow.p().boundaryField()[patchi];
+    const scalar area = gSum(magSf);
+    const vector centroid = area > 0 ? vector(gSum(vectorField(magSf * Cf)) / area) : vector(Zero);
+    // Areas point out of the fluid, into the wall.
+    const vectorField force(flow.rho() * (Sf * p - nu * (Sf & dev(twoSymm(gradient)))));
+    const vector torque = gSum(vectorField((Cf - centroid) ^ force));
+    loads.push_back({patch.name(), gSum(force), torque & flowAxis(flow)});
+  }
+  return loads;
+}
+
+scalar pressureGradientOf(const averagedFlow& flow) {
+  const fvMesh& mesh = flow.mesh();
+  const label inlet = mesh.boundaryMesh().findPatchID("inlet");
+  const label outlet = mesh.boundaryMesh().findPatchID("outlet");
+  // Periodic ends cost nothing by themselves, and are empty where they lie between ranks.
+  if (flow.drivingPressureGradient() != 0 || inlet < 0 || outlet < 0 || mesh.boundaryMesh()[inlet].coupled()) {
+    return flow.drivingPressureGradient();
+  }
+  const auto mean = [&](label patch) {
+    const scalarField& areas = mesh.magSf().boundaryField()[patch];
+    return gSum(scalarField(areas * flow.p().boundaryField()[patch])) / gSum(areas);
+  };
+  return flow.rho() * (mean(inlet) - mean(outlet)) / (boundBox(mesh.points(), true).span() & flowAxis(flow));
+}
+
+scalar ReynoldsNumber(const averagedFlow& flow) {
+  const fvMesh& mesh = flow.mesh();
+  scalar area = 0, viscous = 0;
+  for (const label patchi : wallPatches(mesh)) {
+    const scalarField& magSf = mesh.magSf().boundaryField()[patchi];
+    area += sum(magSf);
+    viscous += sum(magSf * flow.rheology().nu(patchi));
+  }
+  reduce(area, sumOp<scalar>());
+  reduce(viscous, sumOp<scalar>());
+  const scalar U = mag(flow.superficialVelocity());
+  if (!(area > 0)) {
+    return 0;
+  }
+  const scalar diameter = 4 * gSum(mesh.V()) / area;
+  const eccentra::rheology::HerschelBulkley law = kinematicLaw(flow.rheology());
+  return law.k > 0 ? eccentra::rheology::metzner_reed(law, diameter, U) : U * diameter * area / viscous;
+}
+
+std::string turbulenceWarning(const averagedFlow& flow, scalar Reynolds) {
+  const eccentra::rheology::HerschelBulkley law = kinematicLaw(flow.rheology());
+  const scalar limit = eccentra::rheology::laminar_limit(law.k > 0 ? law.n : 1);
+  if (!(Reynolds > limit)) {
+    return "";
+  }
+  std::ostringstream text;
+  text.precision(4);
+  text << "warning: the Reynolds number of the mean flow is " << Reynolds << ", above the laminar limit " << limit
+       << " of this fluid (Dodge and Metzner), but the flow is computed as laminar: there is no turbulence model, and "
+          "pressure drop and forces on walls come out too low\n";
+  return text.str();
+}
+
+std::string inletWarning(averagedFlow& flow) {
+  // Below this fluid fraction the two velocities differ by more than a hundredth.
+  constexpr scalar kClear = 0.99;
+  forAll(flow.mesh().boundary(), patchi) {
+    const fvPatchVectorField& U = flow.U().boundaryField()[patchi];
+    const fvPatch& patch = flow.mesh().boundary()[patchi];
+    if (!U.fixesValue() || U.coupled() || isA<wallPolyPatch>(patch.patch()) ||
+        U.type() == "interstitialInletVelocity") {
+      continue;
+    }
+    const scalarField inflow(max(-(U & patch.Sf()), scalar(0)));
+    const scalar entering = gSum(inflow);
+    const scalar entersBeside = gSum(scalarField(inflow * flow.alpha().boundaryField()[patchi]));
+    if (entering > 0 && entersBeside < kClear * entering) {
+      std::ostringstream text;
+      text.precision(3);
+      text << "warning: 0/U: " << patch.name() << " is of type '" << U.type()
+           << "' and has particles beside it: its velocity is that between the particles, so that " << entersBeside
+           << " of " << entering
+           << " m3/s of fluid enter; give type interstitialInletVelocity with inletVelocity for a superficial "
+              "velocity\n";
+      return text.str();
+    }
+  }
+  return "";
+}
+
+flowMeasures::flowMeasures(averagedFlow& flow)
+    : gradient(pressureGradientOf(flow)), Reynolds(ReynoldsNumber(flow)), residual(flow.momentumResidual()),
+      loads(wallLoads(flow)) {}
+
+std::string flowMeasures::columns(const fvMesh& mesh) {
+  std::string names = ",reynolds,momentum_residual";
+  for (const label patchi : wallPatches(mesh)) {
+    for (const char* what : {"_force_x", "_force_y", "_force_z", "_torque"}) {
+      names += "," + mesh.boundary()[patchi].name() + what;
+    }
+  }
+  return names;
+}
+
+std::string flowMeasures::values() const {
+  std::ostringstream os;
+  os.precision(13);
+  os << ',' << Reynolds << ',' << residual;
+  for (const wallLoad& load : loads) {
+    os << ',' << load.force.x() << ',' << load.force.y() << ',' << load.force.z() << ',' << load.torque;
+  }
+  return os.str();
+}
+
+std::string flowMeasures::text() const {
+  std::ostringstream os;
+  os.precision(4);
+  os << "Re " << Reynolds;
+  for (const wallLoad& load : loads) {
+    os << "  " << load.patch << " |F| " << mag(load.force) << " N torque " << load.torque << " N m";
+  }
+  return os.str();
+}
+
+} // namespace Foam
