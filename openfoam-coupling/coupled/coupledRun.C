@@ -4,11 +4,11 @@
 #include "coupled/coupledRun.H"
 
 #include "coupled/appliedForces.H"
-#include "coupled/caseFiles.H"
 #include "coupled/embeddedDem.h"
 #include "coupled/fluidCheckpoint.H"
-#include "coupled/periodicDirections.H"
 #include "coupled/statedTerms.H"
+#include "flow/caseFiles.H"
+#include "flow/periodicDirections.H"
 #include "support/arithmeticFault.H"
 #include "support/inputError.H"
 #include "support/processGuards.H"

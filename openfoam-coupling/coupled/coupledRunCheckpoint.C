@@ -3,8 +3,8 @@
 // A coupled run goes on from what it kept.
 #include "coupled/coupledRun.H"
 
-#include "coupled/caseFiles.H"
 #include "coupled/fluidCheckpoint.H"
+#include "flow/caseFiles.H"
 #include "support/processGuards.H"
 
 #include "Time.H"

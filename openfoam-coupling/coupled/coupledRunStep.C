@@ -4,9 +4,9 @@
 #include "coupled/coupledRun.H"
 
 #include "coupled/appliedForces.H"
-#include "coupled/caseFiles.H"
-#include "coupled/flowMeasures.H"
+#include "flow/caseFiles.H"
 #include "flow/feedbackShares.H"
+#include "flow/flowMeasures.H"
 #include "support/inputError.H"
 #include "support/processGuards.H"
 #include "support/stopwatch.H"

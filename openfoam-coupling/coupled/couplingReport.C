@@ -3,7 +3,7 @@
 // Formats the balances and costs of a coupled run.
 #include "coupled/couplingReport.H"
 
-#include "coupled/flowMeasures.H"
+#include "flow/flowMeasures.H"
 #include "support/inputError.H"
 
 #include "OSspecific.H"

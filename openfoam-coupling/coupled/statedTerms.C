@@ -3,7 +3,7 @@
 // Reads what the handshake compares out of the case.
 #include "coupled/statedTerms.H"
 
-#include "coupled/flowMeasures.H"
+#include "flow/flowMeasures.H"
 
 #include "uniformDimensionedFields.H"
 

@@ -4,7 +4,7 @@
 // back.
 #include "flow/averagedFlow.H"
 
-#include "coupled/caseFiles.H"
+#include "flow/caseFiles.H"
 #include "flow/deferredConvection.H"
 #include "flow/extrapolatedVelocity.H"
 #include "flow/facewardForce.H"

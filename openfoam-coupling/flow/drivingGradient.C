@@ -4,7 +4,7 @@
 #include "flow/drivingGradient.H"
 
 #include "calculatedFvPatchFields.H"
-#include "coupled/periodicDirections.H"
+#include "flow/periodicDirections.H"
 #include "support/inputError.H"
 
 #include "support/rankSums.H"

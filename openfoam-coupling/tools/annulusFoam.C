@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // annulusFoam: flow of a generalised-Newtonian fluid in an annulus (or any other mesh), alone or with particles.
-#include "coupled/caseFiles.H"
 #include "coupled/coupledRun.H"
-#include "coupled/fieldWriter.H"
-#include "coupled/openfoamFolder.H"
 #include "flow/averagedFlow.H"
+#include "flow/caseFiles.H"
 #include "flow/flowProgress.H"
 #include "flow/timeStepControl.H"
 #include "support/arithmeticFault.H"
+#include "support/fieldWriter.H"
 #include "support/inputError.H"
+#include "support/openfoamFolder.H"
 
 #include "Time.H"
 #include "argList.H"

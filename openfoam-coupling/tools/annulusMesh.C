@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // annulusMesh: system/annulusMeshDict -> constant/polyMesh and constant/g of an inclined eccentric annulus.
-#include "coupled/openfoamFolder.H"
 #include "mesh/annulus_grid.h"
 #include "support/arithmeticFault.H"
 #include "support/inputError.H"
+#include "support/openfoamFolder.H"
 
 #include "Time.H"
 #include "argList.H"

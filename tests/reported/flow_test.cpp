@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Habits of OpenFOAM users: what acts must act, all else is refused or named in one sentence.
-#include "coupled/caseFiles.H"
+#include "flow/caseFiles.H"
 #include "rheology/slot_flow.h"
 #include "support/run_program.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The tables, from the dictionaries that the applications and libraries of OpenFOAM v1912 read, and the walk over a
 // case.
-#include "coupled/caseFiles.H"
+#include "flow/caseFiles.H"
 
 #include "support/inputError.H"
 

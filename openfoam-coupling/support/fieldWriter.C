@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // OpenFOAM does not see what the disk refuses when a file is closed: the end of each file tells.
-#include "coupled/fieldWriter.H"
+#include "support/fieldWriter.H"
 
 #include "support/inputError.H"
 

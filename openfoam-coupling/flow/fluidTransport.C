@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Registers the viscosity of the flow under the names that stock solvers use.
-#include "coupled/fluidTransport.H"
+#include "flow/fluidTransport.H"
 
 #include "turbulentTransportModel.H"
 

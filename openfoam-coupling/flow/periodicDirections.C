@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Looks at the areas of periodic patches.
-#include "coupled/periodicDirections.H"
+#include "flow/periodicDirections.H"
 
 #include "cyclicAMIPolyPatch.H"
 #include "cyclicPolyPatch.H"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Integrals over walls and ends of the mesh.
-#include "coupled/flowMeasures.H"
+#include "flow/flowMeasures.H"
 
 #include "flow/averagedFlow.H"
 #include "rheology/slot_flow.h"

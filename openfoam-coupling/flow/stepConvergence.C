@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Says once what kind of iteration does not converge, and at the end how often.
-#include "coupled/stepConvergence.H"
+#include "flow/stepConvergence.H"
 
 #include <sstream>
 
