@@ -476,6 +476,7 @@ scalar averagedFlow::momentumResidual() {
     inertia = fvc::ddt(U_)().primitiveField() * V;
   }
   // fvMatrix::residual counts coupled patches twice.
+  const autoPtr<surfaceScalarField> alphaPhi(coupled_.valid() ? new surfaceScalarField(coupled_->alphaPhi) : nullptr);
   const tmp<fvVectorMatrix> matrix = momentumMatrix(false);
   const vectorField missing(
       V * (matrix->H()().primitiveField() - matrix->A()().primitiveField() * U_.primitiveField()) - pressure);
@@ -493,6 +494,11 @@ scalar averagedFlow::momentumResidual() {
   const scalar largest = max(max(sums[1], sums[2]), sums[3]);
   residual_ = largest > VSMALL && convergence_.moving() ? sums[0] / largest : 0;
   unsteadiness_ = largest > VSMALL && convergence_.moving() ? sums[2] / largest : 0;
+  // A look at the flow leaves it as it was: the fluxes to the last digit, and boundary conditions that are due.
+  if (alphaPhi.valid()) {
+    coupled_->alphaPhi = alphaPhi();
+  }
+  U_.correctBoundaryConditions();
   convergence_.measured(residual_);
   return residual_;
 }

@@ -159,7 +159,6 @@ const std::vector<caseFile>& caseFiles() {
       {"caseProperties", v::noted, nullptr, ""},
       {"reducedUnitsDict", v::noted, nullptr, ""},
       {"mdTransportProperitesDict", v::noted, nullptr, ""},
-      {"initialConditions", v::noted, nullptr, ""},
       {"saturationModel", v::noted, nullptr, ""},
       // Geometry and tools.
       {"triSurface", v::harmless, nullptr, ""},
@@ -408,7 +407,7 @@ void checkCaseFiles(const Time& time) {
   checkFields(time, unread);
   checkFunctionObjects(time, unread);
   if (!unread.empty()) {
-    note("without effect on this flow, because annulusFoam does not read them: " + unread);
+    note("without effect on this flow unless a file that annulusFoam reads includes them: " + unread);
   }
 }
 

@@ -20,8 +20,11 @@ void stepConvergence::endStep(label outerCorrectors, const dictionary& PIMPLE, s
 }
 
 void stepConvergence::measured(scalar residual) {
-  ++measured_;
   latest_ = residual;
+  if (steps_ <= kStart) {
+    return;
+  }
+  ++measured_;
   worst_ = max(worst_, residual);
   unsolved_ += residual > kResidual;
 }
@@ -49,13 +52,14 @@ std::string stepConvergence::news(const word& time) {
 }
 
 std::string stepConvergence::summary() const {
-  if (linear_ == 0 && outer_ == 0 && unsolved_ == 0) {
+  if (linear_ == 0 && outer_ == 0 && unsolved_ == 0 && !(latest_ > kResidual)) {
     return "";
   }
   std::ostringstream text;
   text << "not converged within the step: linear solvers in " << linear_ << " and outer correctors in " << outer_
        << " of " << steps_ << " steps, momentum in " << unsolved_ << " of " << measured_ << " reports (worst residual "
-       << worst_ << ", last " << latest_ << ")\n";
+       << worst_ << ", last " << latest_
+       << "); reduce deltaT, raise nOuterCorrectors or nCorrectors, or take further steps\n";
   return text.str();
 }
 

@@ -77,7 +77,17 @@ void removeAll(const std::vector<fs::path>& files, const fs::path& folder) {
 
 } // namespace
 
+// OpenFOAM writes the state of its function objects into the folder of a time after the fields.
+void fieldWriter::clearLost() {
+  if (!lostFolder_.empty()) {
+    std::error_code ignored;
+    fs::remove_all(lostFolder_, ignored);
+    lostFolder_.clear();
+  }
+}
+
 void fieldWriter::write() {
+  clearLost();
   if (time_.writeTime()) {
     attempt();
   }
@@ -105,6 +115,9 @@ void fieldWriter::attempt() {
     return;
   }
   removeAll(files, folder);
+  if (before.empty()) {
+    lostFolder_ = folder.string();
+  }
   ++lost_;
   std::error_code unknown;
   const fs::space_info space = fs::space(std::string(time_.path()), unknown);
@@ -121,7 +134,8 @@ void fieldWriter::attempt() {
   }
 }
 
-void fieldWriter::finish() const {
+void fieldWriter::finish() {
+  clearLost();
   if (lastFailed_) {
     throw inputError("the fields of the last time, " + time_.timeName() + " s, are not there (" + reason_ +
                      "): free space on the disk and run again");
