@@ -47,6 +47,16 @@ TEST(Solid, BoxHasItsMassPropertiesWhereverItIs) {
   EXPECT_LT((p.inertia_per_mass - expected).norm(), 1e-5 * expected.norm());
 }
 
+TEST(Solid, DistancesScaleWithTheSolid) {
+  write_stl("ball.stl", ball(1, 4));
+  const Solid one("ball.stl", 1);
+  for (const double scale : {1e-6, 1e-3, 1e3}) {
+    const Solid scaled("ball.stl", scale);
+    for (const Vector3d& x : {Vector3d(0, 0, 0), Vector3d(.3, -.2, .8), Vector3d(1, 1, 0)})
+      EXPECT_NEAR(scaled.distance(scale * x) / scale, one.distance(x), 1e-6) << scale;
+  }
+}
+
 TEST(Solid, TurnedInsideOutItIsTheSame) {
   std::vector<Facet> facets = box(Vector3d(1, 1, 1), Vector3d::Zero());
   for (Facet& f : facets)

@@ -8,6 +8,8 @@
 #include <vtkNew.h>
 #include <vtkPoints.h>
 
+#include <Eigen/Geometry>
+
 namespace eccentra::shape {
 
 vtkSmartPointer<vtkPolyData> poly_data(const Surface& surface) {
@@ -24,6 +26,22 @@ vtkSmartPointer<vtkPolyData> poly_data(const Surface& surface) {
   data->SetPoints(points);
   data->SetPolys(cells);
   return data;
+}
+
+UnitFrame::UnitFrame(const Surface& surface) {
+  Eigen::AlignedBox3d box;
+  for (const auto& t : surface.triangles)
+    for (const int v : t)
+      box.extend(surface.vertices[v]);
+  middle = box.center();
+  size = box.diagonal().norm();
+}
+
+Surface UnitFrame::to_unit(const Surface& surface) const {
+  Surface unit = surface;
+  for (Eigen::Vector3d& v : unit.vertices)
+    v = to_unit(v);
+  return unit;
 }
 
 Surface surface_of(vtkPolyData* data) {

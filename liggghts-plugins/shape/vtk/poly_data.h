@@ -12,6 +12,16 @@ namespace eccentra::shape {
 
 vtkSmartPointer<vtkPolyData> poly_data(const Surface& surface);
 
+/// Maps a box around the surface to size 1 about the origin: VTK's locators have absolute tolerances, with which bodies
+/// of millimetres are found slowly or not at all.
+struct UnitFrame {
+  explicit UnitFrame(const Surface& surface);
+  Eigen::Vector3d middle;
+  double size; ///< diagonal of the bounding box
+  Eigen::Vector3d to_unit(const Eigen::Vector3d& point) const { return (point - middle) / size; }
+  Surface to_unit(const Surface& surface) const;
+};
+
 /// The triangles of `data`; other cells are left out.
 Surface surface_of(vtkPolyData* data);
 

@@ -99,6 +99,10 @@ Pinch find_pinch(const Surface& surface, const std::vector<int>& shell_of) {
 } // namespace
 
 struct Solid::DistanceField {
+  explicit DistanceField(const Surface& surface) : frame(surface) {
+    function->SetInput(poly_data(frame.to_unit(surface)));
+  }
+  UnitFrame frame;
   vtkNew<vtkImplicitPolyDataDistance> function;
 };
 
@@ -290,13 +294,12 @@ Solid::Solid(const std::string& path, double scale) : path_(path), where_("STL f
   require_one_solid(shells);
   all_triangles_.resize(surface_.triangles.size());
   std::iota(all_triangles_.begin(), all_triangles_.end(), 0);
-  field_ = std::make_shared<DistanceField>();
-  field_->function->SetInput(poly_data(surface_));
+  field_ = std::make_shared<DistanceField>(surface_);
 }
 
 double Solid::distance(const Eigen::Vector3d& point) const {
-  std::array<double, 3> x{point.x(), point.y(), point.z()};
-  return field_->function->EvaluateFunction(x.data());
+  Eigen::Vector3d x = field_->frame.to_unit(point);
+  return field_->frame.size * field_->function->EvaluateFunction(x.data());
 }
 
 bool Solid::holds(const Eigen::Vector3d& point) const {

@@ -86,7 +86,10 @@ std::optional<Eigen::Vector3d> covered(const Facet& a, const Facet& b, double to
 
 } // namespace
 
-std::optional<Crossing> find_crossing(const Surface& surface, double tolerance) {
+std::optional<Crossing> find_crossing(const Surface& given, double given_tolerance) {
+  const UnitFrame frame(given);
+  const Surface surface = frame.to_unit(given);
+  const double tolerance = given_tolerance / frame.size;
   std::vector<Facet> facets;
   std::vector<bool> thin;
   for (const auto& t : surface.triangles) {
@@ -98,6 +101,7 @@ std::optional<Crossing> find_crossing(const Surface& surface, double tolerance) 
   const auto data = poly_data(surface);
   vtkNew<vtkStaticCellLocator> locator;
   locator->SetDataSet(data);
+  locator->SetNumberOfCellsPerNode(1); // small bins: the list of those near is searched for each one that is added
   locator->BuildLocator();
   vtkNew<vtkIdList> near;
   for (std::size_t i = 0; i < facets.size(); ++i) {
@@ -122,7 +126,7 @@ std::optional<Crossing> find_crossing(const Surface& surface, double tolerance) 
       if (!place)
         place = covered(a, b, tolerance);
       if (place)
-        return Crossing{static_cast<int>(i), static_cast<int>(j), *place};
+        return Crossing{static_cast<int>(i), static_cast<int>(j), frame.middle + frame.size * *place};
     }
   }
   return std::nullopt;
