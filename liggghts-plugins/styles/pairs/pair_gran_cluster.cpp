@@ -128,7 +128,9 @@ void PairGranCluster::init_style() {
   if (force->newton_pair)
     error->all(FLERR, (std::string(style) + " needs `newton off` at the head of the script").c_str());
   if (cpl_)
-    error->all(FLERR, "compute pair/gran/local sees bodies, not sub-contacts, and cannot be used with gran/cluster");
+    error->all(FLERR,
+               "compute pair/gran/local sees bodies, not sub-contacts, and cannot be used with gran/cluster; expected "
+               "compute contact/cluster/local");
   PairGran::init_style();
 }
 

@@ -43,7 +43,9 @@ constexpr int prefetched_ahead = 8;
 
 void PairGranCluster::compute_force(int eflag, int vflag, int addflag) {
   if (addflag)
-    error->all(FLERR, "compute pair/gran/local sees bodies, not sub-contacts, and cannot be used with gran/cluster");
+    error->all(FLERR,
+               "compute pair/gran/local sees bodies, not sub-contacts, and cannot be used with gran/cluster; expected "
+               "compute contact/cluster/local");
   if (eflag || vflag)
     ev_setup(eflag, vflag);
   else

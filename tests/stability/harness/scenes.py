@@ -60,9 +60,9 @@ def floor(words=""):
     return f"fix floor all wall/gran/cluster model hertz tangential history {words} primitive type 1 zplane 0.0\n"
 
 
-def template(name, shape, diameter, density=2619.0, orientation="random"):
-    """A template `name` and its distribution d_name."""
-    words = f"shape {shape} diameter {diameter!r} orientation {orientation}"
+def template(name, shape, diameter, density=2619.0, orientation=None):
+    """A template `name` and its distribution d_name. Orientations are those of place(), and random where pour() draws places."""
+    words = f"shape {shape} diameter {diameter!r}" + (f" orientation {orientation}" if orientation else "")
     return f"""fix {name} all particletemplate/cluster 15485863 atom_type 1 volume_limit 1e-25 density constant {density!r} {words}
 fix d_{name} all particledistribution/discrete 32452843 1 {name} 1.0
 """
