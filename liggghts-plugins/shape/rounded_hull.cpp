@@ -84,6 +84,27 @@ RoundedHull::RoundedHull(std::string name, const Core& core, double radius)
   bounding_radius_ = std::visit([](const auto& c) { return farthest(c); }, core_) + radius;
 }
 
+RoundedHull::RoundedHull(std::string name, const Core& core, double radius, const Properties& p)
+    : name_(std::move(name)), core_(core), radius_(radius), contact_radius_(p.contact_radius), volume_(p.volume),
+      surface_(p.surface), given_centre_(Vector3d::Zero()), inertia_per_mass_(p.inertia_per_mass),
+      bounding_radius_(std::visit([](const auto& c) { return farthest(c); }, core) + radius) {}
+
+std::vector<Vector3d> RoundedHull::points() const {
+  if (const ConvexCore* core = polyhedron())
+    return core->vertices;
+  const DiskCore& core = *disk();
+  std::vector<Vector3d> points;
+  for (const double height : {core.half_height, -core.half_height}) {
+    for (int k = 0; k < points_on_rim; ++k) {
+      const double angle = 2 * M_PI * k / points_on_rim;
+      points.emplace_back(core.radius * std::cos(angle), core.radius * std::sin(angle), height);
+    }
+    if (core.half_height == 0)
+      break;
+  }
+  return points;
+}
+
 double RoundedHull::equivalent_radius() const {
   return std::cbrt(3 * volume_ / (4 * M_PI));
 }

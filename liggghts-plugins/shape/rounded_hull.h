@@ -21,6 +21,12 @@ class RoundedHull {
  public:
   using Core = std::variant<ConvexCore, DiskCore>;
 
+  /// Body frame and properties as they are, for a body that has been one before.
+  struct Properties {
+    double volume, surface, contact_radius;
+    Eigen::Vector3d inertia_per_mass;
+  };
+  RoundedHull(std::string name, const Core& core, double radius, const Properties& properties);
   /// Takes the core in any frame (a disk in its own) and turns it into the body frame. `radius` of the ball [m].
   RoundedHull(std::string name, const Core& core, double radius);
 
@@ -33,6 +39,10 @@ class RoundedHull {
   /// Radius with which a contact of this body enters Hertz's law [m]; the rounding radius unless it is set.
   double contact_radius() const { return contact_radius_; }
   void set_contact_radius(double radius) { contact_radius_ = radius; }
+
+  /// The core's vertices; of a disk, points on its rims, first those above. Each is the centre of a ball of `radius`
+  /// that the body contains; on planes and in holes polyhedra touch at these alone.
+  std::vector<Eigen::Vector3d> points() const;
 
   double volume() const { return volume_; }   ///< [m3]
   double surface() const { return surface_; } ///< [m2]
@@ -62,7 +72,10 @@ class RoundedHull {
   double bounding_radius_;
 };
 
-/// The same core and ball, all lengths times `scale`.
+/// Points on each rim of a disk, which carry its friction and bear it where it lies flat.
+constexpr int points_on_rim = 12;
+
+/// The same core, all lengths times `scale`.
 RoundedHull::Core scaled(const RoundedHull::Core& core, double scale);
 
 } // namespace eccentra::shape

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The point of an arc of a disk's rim that is closest to something.
+#pragma once
+
+#include "contact/contact_core.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace eccentra::contact {
+
+/// A rim of a posed disk: points about its centre by their angle.
+struct Rim {
+  Eigen::Vector3d centre, x, y; ///< of the rim; its half axes [m]
+  Rim(const PosedCore& disk, int rim) {
+    const ContactCore& core = *disk.core;
+    centre = (rim == 0 ? core.half.z() : -core.half.z()) * disk.rotation.col(2);
+    x = core.half.x() * disk.rotation.col(0);
+    y = core.half.x() * disk.rotation.col(1);
+  }
+  Eigen::Vector3d at(double angle) const { return centre + std::cos(angle) * x + std::sin(angle) * y; }
+  Eigen::Vector3d tangent(double angle) const { return std::cos(angle) * y - std::sin(angle) * x; }
+};
+
+/// A point on a rim, its distance from something and the normal there, from that something to the point.
+struct RimPoint {
+  Eigen::Vector3d point;
+  shape::CoreDistance at;
+};
+
+/// The closest point between two angles, at the first of which the distance falls and at the second of which it rises:
+/// the root of its slope, by the Illinois method. `slope_low` < 0 < `slope_high`.
+template <typename Distance>
+RimPoint closest_on_arc(const Rim& rim, double low, double slope_low, double high, double slope_high,
+                        const Distance& distance) {
+  constexpr double precision = 1e-13;
+  constexpr int limit = 60;
+  RimPoint best{};
+  int kept = 0;
+  for (int k = 0; k < limit; ++k) {
+    const double angle = high - slope_high * (high - low) / (slope_high - slope_low);
+    best.point = rim.at(angle);
+    best.at = distance(best.point);
+    const double slope = best.at.normal.dot(rim.tangent(angle)) / rim.x.norm();
+    if (std::abs(slope) < precision || high - low < precision)
+      break;
+    if (slope < 0) {
+      low = angle;
+      slope_low = slope;
+      if (kept < 0)
+        slope_high /= 2;
+      kept = -1;
+    } else {
+      high = angle;
+      slope_high = slope;
+      if (kept > 0)
+        slope_low /= 2;
+      kept = 1;
+    }
+  }
+  return best;
+}
+
+} // namespace eccentra::contact

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The search, from coarse to fine: bounding spheres, faces' axes, edges' axes, depths behind support planes, distances.
+#include "contact/feature_search.h"
+
+#include "contact/least_axis.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace eccentra::contact {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Greatest radius of a body's points, with what is added to it.
+double rounding_of(const ContactBody& body) {
+  return body.posed->core->radius + body.extra;
+}
+
+/// Depths of the points behind the plane that supports the core on the side of `direction`, at `reach` along it.
+void depths(const PosedCore& posed, const Vector3d& direction, std::vector<double>& depth) {
+  const int n = posed.core->padded();
+  depth.resize(n);
+  const double *x = posed.x.data(), *y = posed.y.data(), *z = posed.z.data(), reach = posed.reach_along(direction);
+  const double u = direction.x(), v = direction.y(), w = direction.z();
+  double* d = depth.data();
+#pragma GCC ivdep
+  for (int k = 0; k < n; ++k)
+    d[k] = reach - (u * x[k] + v * y[k] + w * z[k]);
+}
+
+/// Whether two edges may come to touch in the inside of both.
+bool may_cross(const Vector3d& a, const Vector3d& u, const Vector3d& b, const Vector3d& v, double limit, double skin) {
+  const Vector3d r = a - b;
+  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), ur = u.dot(r), vr = v.dot(r),
+               det = uu * vv - uv * uv;
+  double s = det > 1e-9 * uu * vv ? std::clamp((uv * vr - ur * vv) / det, 0., 1.) : 0.5;
+  double t = (uv * s + vr) / vv;
+  if (t < 0 || t > 1) {
+    t = std::clamp(t, 0., 1.);
+    s = std::clamp((uv * t - ur) / uu, 0., 1.);
+  }
+  if ((r + s * u - t * v).squaredNorm() >= limit * limit)
+    return false;
+  constexpr double nearly_parallel = 0.01; // squared sine: closest points run fast
+  const double sine2 = det / (uu * vv);
+  if (sine2 <= nearly_parallel)
+    return true;
+  // An end that is closest by far stays so: the vertex has that contact.
+  const double su = (uv * vr - ur * vv) / det, tu = (uu * vr - uv * ur) / det, margin = 4 * skin / sine2;
+  const double lu = std::sqrt(uu), lv = std::sqrt(vv);
+  return su * lu >= -margin && (su - 1) * lu <= margin && tu * lv >= -margin && (tu - 1) * lv <= margin;
+}
+
+} // namespace
+
+double FeatureSearch::search(const BodyPair& pair, double skin) {
+  found_.clear();
+  const PosedCore &a = *pair.a.posed, &b = *pair.b.posed;
+  const double room = pair.offset.norm() - (a.core->bound + pair.a.extra) - (b.core->bound + pair.b.extra);
+  if (room >= skin)
+    return room;
+  const double reach = rounding_of(pair.a) + rounding_of(pair.b), limit = reach + skin;
+  const bool solids = a.core->solid != SolidKind::none && b.core->solid != SolidKind::none;
+  double budget = std::numeric_limits<double>::max();
+  if (solids) {
+    SeparatingAxis axis = best_face_axis(a, b, pair.offset);
+    const bool boxes = a.core->solid == SolidKind::box && b.core->solid == SolidKind::box;
+    if (axis.separation < (boxes ? limit : skin)) // the axes across edges of other polyhedra are too many
+      axis = least_axis(a, b, pair.offset);
+    if (axis.separation >= limit)
+      return axis.separation - reach;
+    if (axis.separation < skin)
+      found_.push_back(feature_id(a.core->solid_feature(), b.core->solid_feature()));
+    // Along an axis points within `limit` of each other lie together no deeper behind the support planes than
+    // limit - separation: few features remain.
+    budget = limit - axis.separation;
+    depths(a, -axis.normal, depth_a_);
+    depths(b, axis.normal, depth_b_);
+  }
+  if (!solids && a.core->solid == b.core->solid) {
+    for (int i = 0; i < a.core->points; ++i)
+      for (int j = 0; j < b.core->points; ++j) {
+        const double touch = a.core->point_radius[i] + pair.a.extra + b.core->point_radius[j] + pair.b.extra + skin;
+        if ((a.point(i) - b.point(j) - pair.offset).squaredNorm() < touch * touch)
+          found_.push_back(feature_id(i, j));
+      }
+    return skin;
+  }
+  if (b.core->solid != SolidKind::none)
+    find_points(pair, false, skin, solids ? depth_a_.data() : nullptr, budget);
+  if (solids)
+    find_edges(pair, limit, skin, budget);
+  if (a.core->is_disk() && solids)
+    find_arcs(pair, false, limit);
+  if (b.core->is_disk() && solids)
+    find_arcs(pair, true, limit);
+  if (a.core->solid != SolidKind::none)
+    find_points(pair, true, skin, solids ? depth_b_.data() : nullptr, budget);
+  std::sort(found_.begin(), found_.end());
+  return skin;
+}
+
+void FeatureSearch::find_points(const BodyPair& pair, bool of_b, double skin, const double* depth, double budget) {
+  const ContactBody &own = of_b ? pair.b : pair.a, &solid = of_b ? pair.a : pair.b;
+  const ContactCore& core = *own.posed->core;
+  const Vector3d shift = of_b ? pair.offset : Vector3d(-pair.offset);
+  const int other = solid.posed->core->solid_feature();
+  const double outer = solid.posed->core->bound + solid.extra;
+  for (int k = 0; k < core.points; ++k) {
+    if (depth && depth[k] > budget)
+      continue;
+    const double radius = (core.solid == SolidKind::none ? core.point_radius[k] : core.radius) + own.extra;
+    const Vector3d p = own.posed->point(k) + shift;
+    if (!depth && p.norm() - radius - outer > skin)
+      continue;
+    if (distance_to(*solid.posed, p).distance < radius + rounding_of(solid) + skin)
+      found_.push_back(of_b ? feature_id(other, k) : feature_id(k, other));
+  }
+}
+
+void FeatureSearch::find_edges(const BodyPair& pair, double limit, double skin, double budget) {
+  const PosedCore &a = *pair.a.posed, &b = *pair.b.posed;
+  const bool axis_a = a.core->is_disk(), axis_b = b.core->is_disk();
+  // A disk's side: its axis with each edge, or with the other's axis. The ids of the few there are need no distances.
+  if ((axis_a && !a.core->has_axis()) || (axis_b && !b.core->has_axis()))
+    return;
+  if (axis_a || axis_b) {
+    const int count_a = axis_a ? 1 : static_cast<int>(a.core->edges.size()),
+              count_b = axis_b ? 1 : static_cast<int>(b.core->edges.size());
+    for (int i = 0; i < count_a; ++i)
+      for (int j = 0; j < count_b; ++j)
+        found_.push_back(feature_id(axis_a ? a.core->axis_feature() : a.core->line_feature(i),
+                                    axis_b ? b.core->axis_feature() : b.core->line_feature(j)));
+    return;
+  }
+  const auto depth_of = [](const std::vector<double>& depth, const std::array<int, 2>& edge) {
+    return std::min(depth[edge[0]], depth[edge[1]]);
+  };
+  for (std::size_t i = 0; i < a.core->edges.size(); ++i) {
+    const auto& edge_a = a.core->edges[i];
+    const double left = budget - depth_of(depth_a_, edge_a);
+    if (left < 0)
+      continue;
+    const Vector3d from = a.point(edge_a[0]), along = a.point(edge_a[1]) - from;
+    for (std::size_t j = 0; j < b.core->edges.size(); ++j) {
+      const auto& edge_b = b.core->edges[j];
+      if (depth_of(depth_b_, edge_b) > left)
+        continue;
+      const Vector3d from_b = b.point(edge_b[0]), along_b = b.point(edge_b[1]) - from_b;
+      if (may_cross(from, along, pair.offset + from_b, along_b, limit, skin))
+        found_.push_back(
+            feature_id(a.core->line_feature(static_cast<int>(i)), b.core->line_feature(static_cast<int>(j))));
+    }
+  }
+}
+
+void FeatureSearch::find_arcs(const BodyPair& pair, bool of_b, double limit) {
+  const ContactBody &own = of_b ? pair.b : pair.a, &solid = of_b ? pair.a : pair.b;
+  const ContactCore& core = *own.posed->core;
+  const Vector3d shift = of_b ? pair.offset : Vector3d(-pair.offset);
+  const int other = solid.posed->core->solid_feature();
+  const double length = core.half.x() * 2 * M_PI / core.ring;
+  for (int rim = 0; rim < core.rims; ++rim) {
+    const auto distance = [&](int k) {
+      return distance_to(*solid.posed, own.posed->point(rim * core.ring + k % core.ring) + shift).distance;
+    };
+    double before = distance(0);
+    for (int k = 0; k < core.ring; ++k) {
+      const double next = distance(k + 1);
+      if ((before + next - length) / 2 < limit) {
+        const int arc = core.line_feature(rim * core.ring + k);
+        found_.push_back(of_b ? feature_id(other, arc) : feature_id(arc, other));
+      }
+      before = next;
+    }
+  }
+}
+
+} // namespace eccentra::contact

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which features of two near bodies can touch soon.
+#pragma once
+
+#include "contact/manifold.h"
+
+#include <vector>
+
+namespace eccentra::contact {
+
+/// Finds the features of A and B that touch, or may do so once the bodies have moved by `skin` [m] relative to each
+/// other, as feature_id in ascending order. Returns the relative motion that cannot bring anything else into touch.
+class FeatureSearch {
+ public:
+  double search(const BodyPair& pair, double skin);
+  const std::vector<int>& found() const { return found_; }
+
+ private:
+  void find_points(const BodyPair& pair, bool of_b, double skin, const double* depth, double budget);
+  void find_edges(const BodyPair& pair, double limit, double skin, double budget);
+  void find_arcs(const BodyPair& pair, bool of_b, double limit);
+  std::vector<int> found_;
+  std::vector<double> depth_a_, depth_b_; ///< of points behind the support plane [m]
+};
+
+} // namespace eccentra::contact

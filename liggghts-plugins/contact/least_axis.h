@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Separating axes of two cores.
+#pragma once
+
+#include "contact/contact_core.h"
+
+namespace eccentra::contact {
+
+/// Along `normal`, which leads from B to A, the cores are `separation` apart; negative: they overlap, and moving A by
+/// so much along the normal frees it.
+struct SeparatingAxis {
+  double separation;
+  Eigen::Vector3d normal;
+};
+
+/// Separation along a unit vector from B to A; `offset` leads from A's centre to B's.
+double separation_along(const PosedCore& a, const PosedCore& b, const Eigen::Vector3d& offset,
+                        const Eigen::Vector3d& normal);
+
+/// The axis of greatest separation among the faces' normals (of disks: their axes, and the directions from their axes
+/// to the other's centre). The cores' distance is at least the separation.
+SeparatingAxis best_face_axis(const PosedCore& a, const PosedCore& b, const Eigen::Vector3d& offset);
+
+/// The same with the directions across an edge of each: the true separation of polyhedra that overlap.
+SeparatingAxis least_axis(const PosedCore& a, const PosedCore& b, const Eigen::Vector3d& offset);
+
+} // namespace eccentra::contact

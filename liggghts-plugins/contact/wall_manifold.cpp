@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Walls: each is a distance function of points, which lines meet as they meet a solid.
+#include "contact/wall_manifold.h"
+
+#include "contact/arc_minimum.h"
+#include "contact/hand_over.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace eccentra::contact {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Rims flatter on a plane than this part of their radius have no deepest point.
+constexpr double flat = 1e-12;
+
+/// Contacts of one body with one wall, under construction.
+template <typename Distance> class WallContacts {
+ public:
+  WallContacts(const ContactBody& body, const Distance& distance, std::vector<Contact>& contacts)
+      : posed_(*body.posed), core_(*body.posed->core), extra_(body.extra), distance_(distance), contacts_(contacts),
+        first_(contacts.size()) {}
+
+  void take_points() {
+    at_.resize(core_.points);
+    contact_of_.assign(core_.points, -1);
+    for (int k = 0; k < core_.points; ++k) {
+      const Vector3d p = posed_.point(k);
+      at_[k] = distance_(p);
+      const double reach = (core_.solid == SolidKind::none ? core_.point_radius[k] : core_.radius) + extra_;
+      if (at_[k].distance >= reach)
+        continue;
+      contact_of_[k] = static_cast<int>(contacts_.size());
+      contacts_.push_back({k, false, p, at_[k].normal, at_[k].distance, reach, reach, 1});
+    }
+  }
+
+  /// The closest point of each arc of a disk's rims.
+  void take_arcs() {
+    const double reach = core_.radius + extra_, step = 2 * M_PI / core_.ring;
+    for (int rim_number = 0; rim_number < core_.rims; ++rim_number) {
+      const Rim rim(posed_, rim_number);
+      for (int k = 0; k < core_.ring; ++k) {
+        const int from = rim_number * core_.ring + k, to = rim_number * core_.ring + (k + 1) % core_.ring;
+        const double least = (at_[from].distance + at_[to].distance - core_.half.x() * step) / 2;
+        if (least >= reach)
+          continue;
+        const double unit = core_.half.x(), angle = k * step,
+                     slope_from = at_[from].normal.dot(rim.tangent(angle)) / unit,
+                     slope_to = at_[to].normal.dot(rim.tangent(angle + step)) / unit;
+        if (!(slope_from < -flat) || !(slope_to > flat))
+          continue;
+        const RimPoint best = closest_on_arc(rim, angle, slope_from, angle + step, slope_to, distance_);
+        add_line<2>(core_.line_feature(from), best.point, best.at, {from, to});
+      }
+    }
+  }
+
+  /// A line's closest point in its inside, with vertices as its ends.
+  template <int ends>
+  void add_line(int feature, const Vector3d& point, const shape::CoreDistance& at, const int (&end)[ends]) {
+    const double reach = core_.radius + extra_;
+    if (at.distance >= reach)
+      return;
+    double end_overlap[ends];
+    for (int k = 0; k < ends; ++k)
+      end_overlap[k] = reach - at_[end[k]].distance;
+    const HandOver<ends> share(reach - at.distance, end_overlap);
+    for (int k = 0; k < ends; ++k)
+      if (share.loss[k] > 0)
+        contacts_[contact_of_[end[k]]].weight -= share.loss[k];
+    if (share.line <= no_weight)
+      return;
+    contacts_.push_back({feature, false, point, at.normal, at.distance, reach, reach, share.line});
+  }
+
+  /// A disk's side, whose ends are its rims.
+  void add_side(const Vector3d& point, const shape::CoreDistance& at) {
+    const double reach = core_.radius + extra_;
+    if (at.distance >= reach)
+      return;
+    int closest[2] = {-1, -1};
+    for (std::size_t k = first_; k < contacts_.size(); ++k) {
+      const int feature = contacts_[k].id;
+      const int rim = (feature < core_.points ? feature : feature - core_.points) / core_.ring;
+      if (closest[rim] < 0 || contacts_[k].distance < contacts_[closest[rim]].distance)
+        closest[rim] = static_cast<int>(k);
+    }
+    double end_overlap[2];
+    for (int k = 0; k < 2; ++k)
+      end_overlap[k] = closest[k] < 0 ? 0 : contacts_[closest[k]].overlap();
+    const HandOver<2, 2> share(reach - at.distance, end_overlap);
+    for (int k = 0; k < 2; ++k)
+      if (share.loss[k] > 0)
+        contacts_[closest[k]].weight -= share.loss[k];
+    if (share.line > no_weight)
+      contacts_.push_back({core_.axis_feature(), false, point, at.normal, at.distance, reach, reach, share.line});
+  }
+
+  /// Drops what has been handed over.
+  void finish() {
+    std::size_t kept = first_;
+    for (std::size_t k = first_; k < contacts_.size(); ++k) {
+      Contact c = contacts_[k];
+      if (std::abs(c.weight) < no_weight)
+        continue;
+      c.elastic = c.weight < 0;
+      contacts_[kept++] = c;
+    }
+    contacts_.resize(kept);
+  }
+
+ private:
+  const PosedCore& posed_;
+  const ContactCore& core_;
+  double extra_;
+  const Distance& distance_;
+  std::vector<Contact>& contacts_;
+  std::size_t first_;
+  std::vector<shape::CoreDistance> at_;
+  std::vector<int> contact_of_;
+};
+
+/// Where the line from + t along is closest to an infinite axis through `on_axis`; false where they are parallel.
+bool closest_to_axis(const Vector3d& from, const Vector3d& along, const Vector3d& on_axis, const Vector3d& direction,
+                     double& t) {
+  const Vector3d r = from - on_axis, across = along - along.dot(direction) * direction,
+                 r_across = r - r.dot(direction) * direction;
+  const double square = across.squaredNorm();
+  if (square <= 1e-9 * along.squaredNorm())
+    return false;
+  t = -r_across.dot(across) / square;
+  return true;
+}
+
+/// Radius vector of a point about the axis.
+Vector3d from_axis(const Vector3d& point, const CylinderWall& wall) {
+  const Vector3d r = point - wall.to_axis;
+  return r - r.dot(wall.direction) * wall.direction;
+}
+
+} // namespace
+
+void plane_contacts(const ContactBody& body, const Vector3d& normal, double height, std::vector<Contact>& contacts) {
+  const auto distance = [&](const Vector3d& p) { return shape::CoreDistance{height + normal.dot(p), normal}; };
+  WallContacts<decltype(distance)> wall(body, distance, contacts);
+  wall.take_points();
+  if (body.posed->core->is_disk())
+    wall.take_arcs();
+  wall.finish();
+}
+
+void hole_contacts(const ContactBody& body, const CylinderWall& cylinder, std::vector<Contact>& contacts) {
+  const auto distance = [&](const Vector3d& p) {
+    const Vector3d radial = from_axis(p, cylinder);
+    const double rho = radial.norm();
+    return shape::CoreDistance{cylinder.radius - rho,
+                               rho > 0 ? Vector3d(-radial / rho) : Vector3d(cylinder.direction.unitOrthogonal())};
+  };
+  WallContacts<decltype(distance)> wall(body, distance, contacts);
+  wall.take_points();
+  if (body.posed->core->is_disk())
+    wall.take_arcs();
+  wall.finish();
+}
+
+void pipe_contacts(const ContactBody& body, const CylinderWall& cylinder, std::vector<Contact>& contacts) {
+  const auto distance = [&](const Vector3d& p) {
+    const Vector3d radial = from_axis(p, cylinder);
+    const double rho = radial.norm();
+    return shape::CoreDistance{rho - cylinder.radius,
+                               rho > 0 ? Vector3d(radial / rho) : Vector3d(cylinder.direction.unitOrthogonal())};
+  };
+  const PosedCore& posed = *body.posed;
+  const ContactCore& core = *posed.core;
+  WallContacts<decltype(distance)> wall(body, distance, contacts);
+  wall.take_points();
+  double t = 0;
+  for (std::size_t k = 0; k < core.edges.size(); ++k) {
+    const auto& edge = core.edges[k];
+    const Vector3d from = posed.point(edge[0]), along = posed.point(edge[1]) - from;
+    if (!closest_to_axis(from, along, cylinder.to_axis, cylinder.direction, t) || t <= 0 || t >= 1)
+      continue;
+    const Vector3d on = from + t * along;
+    wall.add_line<2>(core.line_feature(static_cast<int>(k)), on, distance(on), {edge[0], edge[1]});
+  }
+  if (core.is_disk()) {
+    wall.take_arcs();
+    const Vector3d up = core.half.z() * posed.rotation.col(2);
+    if (core.has_axis() && closest_to_axis(-up, 2 * up, cylinder.to_axis, cylinder.direction, t) && t > 0 && t < 1) {
+      const Vector3d on = (2 * t - 1) * up;
+      shape::CoreDistance at = distance(on);
+      at.distance -= core.half.x();
+      wall.add_side(on - core.half.x() * at.normal, at);
+    }
+  }
+  wall.finish();
+}
+
+} // namespace eccentra::contact

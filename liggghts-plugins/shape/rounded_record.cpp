@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Numbers in the order of the body's members.
+#include "shape/rounded_record.h"
+
+#include <stdexcept>
+
+namespace eccentra::shape {
+namespace {
+
+class Reader {
+ public:
+  explicit Reader(const std::vector<double>& values) : values_(values) {}
+  double number() {
+    if (next_ >= values_.size())
+      throw std::invalid_argument("the record of a rounded body ends too early");
+    return values_[next_++];
+  }
+  int integer() { return static_cast<int>(number()); }
+  Eigen::Vector3d vector() {
+    Eigen::Vector3d v;
+    for (int k = 0; k < 3; ++k)
+      v[k] = number();
+    return v;
+  }
+
+ private:
+  const std::vector<double>& values_;
+  std::size_t next_ = 0;
+};
+
+} // namespace
+
+std::vector<double> record_of(const RoundedHull& hull) {
+  std::vector<double> record{hull.disk() ? 1. : 0., hull.radius(), hull.contact_radius(), hull.volume(),
+                             hull.surface()};
+  const auto put = [&](const Eigen::Vector3d& v) { record.insert(record.end(), {v.x(), v.y(), v.z()}); };
+  const auto put_count = [&](std::size_t count) { record.push_back(static_cast<double>(count)); };
+  put(hull.inertia_per_mass());
+  if (const DiskCore* disk = hull.disk()) {
+    record.insert(record.end(), {disk->radius, disk->half_height});
+    return record;
+  }
+  const ConvexCore& core = *hull.polyhedron();
+  put_count(core.vertices.size());
+  for (const Eigen::Vector3d& v : core.vertices)
+    put(v);
+  put_count(core.faces.size());
+  for (const CoreFace& face : core.faces) {
+    put(face.normal);
+    record.insert(record.end(), {face.offset, face.area});
+    put_count(face.corners.size());
+    for (const int k : face.corners)
+      record.push_back(k);
+  }
+  put_count(core.edges.size());
+  for (const CoreEdge& e : core.edges)
+    for (const int k : {e.from, e.to, e.left, e.right})
+      record.push_back(k);
+  return record;
+}
+
+RoundedHull hull_of_record(const std::string& name, const std::vector<double>& record) {
+  Reader in(record);
+  const bool is_disk = in.integer() != 0;
+  const double radius = in.number();
+  RoundedHull::Properties p;
+  p.contact_radius = in.number();
+  p.volume = in.number();
+  p.surface = in.number();
+  p.inertia_per_mass = in.vector();
+  if (is_disk) {
+    const double rim = in.number();
+    return RoundedHull(name, DiskCore{rim, in.number()}, radius, p);
+  }
+  ConvexCore core;
+  core.vertices.resize(in.integer());
+  for (Eigen::Vector3d& v : core.vertices)
+    v = in.vector();
+  core.faces.resize(in.integer());
+  for (CoreFace& face : core.faces) {
+    face.normal = in.vector();
+    face.offset = in.number();
+    face.area = in.number();
+    face.corners.resize(in.integer());
+    for (int& k : face.corners)
+      k = in.integer();
+  }
+  core.edges.resize(in.integer());
+  for (CoreEdge& e : core.edges)
+    for (int* k : {&e.from, &e.to, &e.left, &e.right})
+      *k = in.integer();
+  return RoundedHull(name, core, radius, p);
+}
+
+} // namespace eccentra::shape

@@ -1,0 +1,510 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Manifolds: distances against slow references, candidates, continuity of force, limits in which others know the
+// answer.
+#include "contact/feature_search.h"
+#include "contact/gjk.h"
+#include "contact/least_axis.h"
+#include "contact/manifold.h"
+#include "contact/wall_manifold.h"
+#include "shape/convex_hull.h"
+#include "shape/rounded_words.h"
+
+#include <Eigen/Geometry>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <sstream>
+
+namespace {
+using namespace eccentra::contact;
+using eccentra::shape::ConvexCore;
+using eccentra::shape::RoundedHull;
+using Eigen::AngleAxisd;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  Vector3d direction() {
+    std::normal_distribution<double> n;
+    return Vector3d(n(engine_), n(engine_), n(engine_)).normalized();
+  }
+  Matrix3d turn() { return AngleAxisd(uniform(0, M_PI), direction()).toRotationMatrix(); }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+RoundedHull made(const std::string& line) {
+  std::istringstream in(line);
+  std::vector<std::string> arguments;
+  for (std::string word; in >> word;)
+    arguments.push_back(word);
+  std::size_t used = 0;
+  return eccentra::shape::make_rounded(arguments, 0, used, 2).hull;
+}
+
+RoundedHull scattered(unsigned seed) {
+  Random r(seed);
+  std::vector<Vector3d> points;
+  for (int k = 0; k < 14; ++k)
+    points.push_back(r.uniform(0.8, 1.2) * r.direction());
+  return {"hull", eccentra::shape::convex_hull(points), 0.15};
+}
+
+/// One of each kind of body.
+std::vector<RoundedHull> kinds() {
+  std::vector<RoundedHull> all;
+  for (const char* line : {"smooth cube rounding .15", "smooth box 1 2 3 rounding .3", "smooth box 1 3 3 rounding 1",
+                           "smooth box 1 1 3 rounding 1", "smooth cube rounding 1", "smooth disk aspect .31 rounding 1",
+                           "smooth disk aspect .31 rounding .5", "smooth disk aspect 2 rounding .3"})
+    all.push_back(made(line));
+  all.push_back(scattered(4));
+  return all;
+}
+
+double segment_distance(const Vector3d& a, const Vector3d& u, const Vector3d& b, const Vector3d& v) {
+  const Vector3d r = a - b;
+  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), det = uu * vv - uv * uv;
+  double least = 1e300;
+  if (det > 1e-12 * uu * vv) {
+    const double s = (uv * v.dot(r) - vv * u.dot(r)) / det, t = (uu * v.dot(r) - uv * u.dot(r)) / det;
+    if (s >= 0 && s <= 1 && t >= 0 && t <= 1)
+      least = (r + s * u - t * v).norm();
+  }
+  const auto ask = [&](const Vector3d& p, const Vector3d& from, const Vector3d& along) {
+    const double t = std::min(1., std::max(0., (p - from).dot(along) / along.squaredNorm()));
+    least = std::min(least, (p - from - t * along).norm());
+  };
+  ask(a, b, v);
+  ask(a + u, b, v);
+  ask(b, a, u);
+  ask(b + v, a, u);
+  return least;
+}
+
+/// Distance of two polyhedral cores feature by feature; 0 where a vertex or an edge is inside.
+double slow_distance(const PosedCore& a, const PosedCore& b, const Vector3d& offset) {
+  if (least_axis(a, b, offset).separation < 0 && a.core->polyhedron.dimension() == 3 &&
+      b.core->polyhedron.dimension() == 3)
+    return 0;
+  double least = 1e300;
+  const auto moved = [](const PosedCore& posed, const Vector3d& shift) {
+    ConvexCore core = posed.core->polyhedron;
+    for (Vector3d& v : core.vertices)
+      v = posed.rotation * v + shift;
+    for (auto& f : core.faces) {
+      f.normal = posed.rotation * f.normal;
+      f.offset += f.normal.dot(shift);
+    }
+    return core;
+  };
+  const ConvexCore ca = moved(a, Vector3d::Zero()), cb = moved(b, offset);
+  for (const Vector3d& v : ca.vertices)
+    least = std::min(least, std::max(0., distance_to_core(cb, v).distance));
+  for (const Vector3d& v : cb.vertices)
+    least = std::min(least, std::max(0., distance_to_core(ca, v).distance));
+  for (const auto& e : ca.edges)
+    for (const auto& f : cb.edges)
+      least = std::min(least, segment_distance(ca.vertices[e.from], ca.vertices[e.to] - ca.vertices[e.from],
+                                               cb.vertices[f.from], cb.vertices[f.to] - cb.vertices[f.from]));
+  return least;
+}
+
+/// Two orientations and an offset: anyhow, parallel, nearly parallel; the cores at `apart` from each other.
+struct Pose {
+  PosedCore a, b;
+  Vector3d offset;
+};
+Pose random_pose(const ContactCore& a, const ContactCore& b, Random& r, double apart) {
+  Pose pose;
+  const Matrix3d first = r.turn();
+  const int kind = static_cast<int>(r.uniform(0, 4));
+  Matrix3d second = r.turn();
+  if (kind == 1) // axes parallel, to round-off
+    second = first * (r.uniform(0, 1) < 0.5 ? Matrix3d(Matrix3d::Identity())
+                                            : AngleAxisd(M_PI / 2, Vector3d::UnitY()).toRotationMatrix());
+  if (kind == 2)
+    second = AngleAxisd(std::pow(10, r.uniform(-12, -1)), r.direction()).toRotationMatrix() * first;
+  pose.a.pose(a, first);
+  pose.b.pose(b, second);
+  const Vector3d way = kind == 3 ? Vector3d(first.col(2)) : r.direction();
+  const Vector3d side =
+      kind == 0
+          ? Vector3d(Vector3d::Zero())
+          : Vector3d(0.5 * a.bound * r.uniform(-1, 1) * first.col(0) + 0.5 * a.bound * r.uniform(-1, 1) * first.col(1));
+  double low = 0, high = 4 * (a.bound + b.bound);
+  for (int k = 0; k < 60; ++k) {
+    const double middle = (low + high) / 2;
+    (gjk_distance(pose.a, pose.b, side + middle * way) < apart ? low : high) = middle;
+  }
+  pose.offset = side + high * way;
+  return pose;
+}
+
+BodyPair pair_of(const Pose& pose) {
+  return {{&pose.a}, {&pose.b}, pose.offset};
+}
+
+/// The contacts of a pair, from a search with this skin.
+struct Found {
+  std::vector<Contact> contacts;
+  double gap, sunk, slack;
+  std::vector<int> candidates;
+};
+Found find(const Pose& pose, double skin) {
+  FeatureSearch search;
+  Found found;
+  found.slack = search.search(pair_of(pose), skin);
+  found.candidates = search.found();
+  Manifolds m;
+  m.add(pair_of(pose), found.candidates.data(), static_cast<int>(found.candidates.size()));
+  m.evaluate();
+  found.contacts = m.contacts();
+  found.gap = m.gap(0);
+  found.sunk = m.sunk(0);
+  return found;
+}
+
+struct Load {
+  Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
+};
+Load load_of(const std::vector<Contact>& contacts) {
+  Load load;
+  for (const Contact& c : contacts) {
+    const Vector3d f = c.weight * std::pow(c.overlap(), 1.5) * c.normal;
+    load.force += f;
+    load.torque += c.contact_point().cross(f);
+  }
+  return load;
+}
+
+TEST(SmoothManifold, DistancesAgreeWithASlowReference) {
+  Random r(1);
+  std::vector<ContactCore> cores;
+  for (const RoundedHull& h : kinds())
+    cores.emplace_back(h);
+  double worst_gjk = 0, worst_manifold = 0;
+  for (const ContactCore& a : cores)
+    for (const ContactCore& b : cores)
+      for (int n = 0; n < 60; ++n) {
+        const double reach = a.radius + b.radius;
+        const Pose pose = random_pose(a, b, r, reach * r.uniform(0.05, 1.5));
+        const double gjk = gjk_distance(pose.a, pose.b, pose.offset);
+        if (!a.is_disk() && !b.is_disk()) {
+          const double slow = slow_distance(pose.a, pose.b, pose.offset);
+          worst_gjk = std::max(worst_gjk, std::abs(gjk - slow));
+        }
+        const Found found = find(pose, 1.5 * reach);
+        // The closest of its contacts is at the distance of the bodies, and the gap is no wider.
+        ASSERT_FALSE(std::isnan(found.gap));
+        EXPECT_LT(found.gap, gjk - reach + 1e-6);
+        double closest = reach;
+        for (const Contact& c : found.contacts)
+          closest = std::min(closest, c.distance);
+        if (gjk < reach)
+          worst_manifold = std::max(worst_manifold, std::abs(closest - gjk));
+        for (const Contact& c : found.contacts) {
+          ASSERT_NEAR(c.normal.norm(), 1, 1e-9);
+          ASSERT_GT(c.overlap(), 0);
+          ASSERT_TRUE(c.arm.allFinite());
+        }
+        EXPECT_TRUE(std::is_sorted(found.contacts.begin(), found.contacts.end(),
+                                   [](const Contact& p, const Contact& q) { return p.id < q.id; }));
+        EXPECT_LE(best_face_axis(pose.a, pose.b, pose.offset).separation, gjk + 1e-9);
+        EXPECT_LE(least_axis(pose.a, pose.b, pose.offset).separation, gjk + 1e-9);
+      }
+  std::printf("worst error of GJK %.1e, of the manifold's gap %.1e (bodies of diameter 2)\n", worst_gjk,
+              worst_manifold);
+  EXPECT_LT(worst_gjk, 1e-7);
+  EXPECT_LT(worst_manifold, 2e-6);
+}
+
+// Any pose, however deep: finite numbers, unit normals.
+TEST(SmoothManifold, SurvivesAnyPose) {
+  Random r(2);
+  std::vector<ContactCore> cores;
+  for (const RoundedHull& h : kinds())
+    cores.emplace_back(h);
+  cores.emplace_back(std::vector<Vector3d>{{0.5, 0, 0}, {-0.5, 0, 0}}, std::vector<double>{0.6, 0.4});
+  cores.emplace_back(
+      ConvexCore(eccentra::shape::make_core({{1, 0, 0}, {0, 1, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 2, 1}})), 0.);
+  for (const ContactCore& a : cores)
+    for (const ContactCore& b : cores)
+      for (int n = 0; n < 120; ++n) {
+        Pose pose;
+        const Matrix3d first = n % 3 ? r.turn() : Matrix3d(Matrix3d::Identity());
+        pose.a.pose(a, first);
+        pose.b.pose(b, n % 2 ? r.turn() : first);
+        pose.offset =
+            n == 0 ? Vector3d(Vector3d::Zero()) : Vector3d(r.uniform(0, 1) * (a.bound + b.bound) * r.direction());
+        const Found found = find(pose, 0.1);
+        for (const Contact& c : found.contacts) {
+          ASSERT_NEAR(c.normal.norm(), 1, 1e-9);
+          ASSERT_TRUE(c.arm.allFinite() && std::isfinite(c.distance) && std::isfinite(c.weight));
+        }
+        if (found.sunk > 0.3 * (a.radius + b.radius)) { // all of them push the bodies apart along one axis
+          const SeparatingAxis axis = least_axis(pose.a, pose.b, pose.offset);
+          const Load load = load_of(found.contacts);
+          EXPECT_GT(load.force.dot(axis.normal), 0);
+        }
+      }
+}
+
+TEST(SmoothManifold, CandidatesHoldForTheirSkin) {
+  Random r(3);
+  std::vector<ContactCore> cores;
+  for (const RoundedHull& h : kinds())
+    cores.emplace_back(h);
+  for (const ContactCore& a : cores)
+    for (const ContactCore& b : cores)
+      for (int n = 0; n < 40; ++n) {
+        const double reach = a.radius + b.radius, skin = 0.3 * reach;
+        Pose pose = random_pose(a, b, r, reach * r.uniform(0.6, 1.2));
+        const Found before = find(pose, skin);
+        // A motion of B whose matter moves by no more than the slack.
+        const double shift = 0.5 * std::min(before.slack, skin);
+        pose.offset += shift * r.direction();
+        const Matrix3d turn =
+            AngleAxisd(0.49 * std::min(before.slack, skin) / b.bound, r.direction()).toRotationMatrix();
+        pose.b.pose(b, turn * pose.b.rotation);
+        const Found fresh = find(pose, skin);
+        Manifolds m;
+        m.add(pair_of(pose), before.candidates.data(), static_cast<int>(before.candidates.size()));
+        m.evaluate();
+        ASSERT_EQ(m.contacts().size(), fresh.contacts.size());
+        for (std::size_t k = 0; k < fresh.contacts.size(); ++k) {
+          EXPECT_EQ(m.contacts()[k].id, fresh.contacts[k].id);
+          EXPECT_EQ(m.contacts()[k].weight, fresh.contacts[k].weight);
+        }
+      }
+}
+
+// Along paths in touch the force has no jump: the step of a path that changes it most is halved until it is short.
+TEST(SmoothManifold, ForceIsContinuous) {
+  std::vector<ContactCore> cores;
+  for (const RoundedHull& h : kinds())
+    cores.emplace_back(h);
+  int disk_paths = 0, disk_jumps = 0;
+  for (std::size_t ka = 0; ka < cores.size(); ++ka)
+    for (const std::size_t kb : {ka, (ka + 1) % cores.size(), (ka + 5) % cores.size()}) {
+      const ContactCore &a = cores[ka], &b = cores[kb];
+      Random r(11);
+      const double reach = a.radius + b.radius, one_spring = std::pow(0.03 * reach, 1.5);
+      double worst = 0;
+      int paths = 0, jumps = 0;
+      for (int n = 0; n < 12; ++n) {
+        const Pose start = random_pose(a, b, r, 0.97 * reach);
+        const Vector3d axis = r.direction(), way = start.offset.cross(r.direction()).normalized();
+        const auto at = [&](double t) {
+          Pose pose = start;
+          pose.offset += 0.3 * b.bound * t * way;
+          pose.b.pose(b, AngleAxisd(0.1 * t, axis).toRotationMatrix() * start.b.rotation);
+          Load load = load_of(find(pose, 0.1 * reach).contacts);
+          load.torque /= b.bound;
+          if (gjk_distance(pose.a, pose.b, pose.offset) < 0.5 * reach)
+            load.force[0] = NAN; // deeper is not what this is for
+          return load;
+        };
+        const auto change = [](const Load& p, const Load& q) {
+          return (p.force - q.force).norm() + (p.torque - q.torque).norm();
+        };
+        constexpr int steps = 150;
+        Load before = at(0), low{}, high{};
+        double most = 0, from = 0;
+        for (int k = 1; k <= steps; ++k) {
+          const Load next = at(double(k) / steps);
+          const double c = change(before, next);
+          if (std::isnan(c))
+            break;
+          if (c > most) {
+            most = c;
+            from = (k - 1.) / steps;
+            low = before;
+            high = next;
+          }
+          before = next;
+        }
+        double width = 1. / steps;
+        for (int k = 0; k < 24 && most > 0; ++k) {
+          width /= 2;
+          const Load middle = at(from + width);
+          const double left = change(low, middle), right = change(middle, high);
+          most = std::max(left, right);
+          if (left >= right) {
+            high = middle;
+          } else {
+            low = middle;
+            from += width;
+          }
+        }
+        worst = std::max(worst, most / one_spring);
+        ++paths;
+        jumps += most / one_spring > 1e-5;
+      }
+      if (!a.is_disk() && !b.is_disk())
+        EXPECT_LT(worst, 1e-5) << "kinds " << ka << " and " << kb;
+      else
+        disk_jumps += jumps;
+      disk_paths += a.is_disk() || b.is_disk() ? paths : 0;
+    }
+  // An arc between two points of a rim has one closest point: where it has two, which faces that just cover each
+  // other's rim can bring about, the contact moves from one to the other at once.
+  std::printf("disks: a jump on %d of %d paths\n", disk_jumps, disk_paths);
+  EXPECT_LT(disk_jumps, 0.2 * disk_paths);
+}
+
+TEST(SmoothManifold, RoundingOneIsASphere) {
+  const ContactCore ball{made("smooth cube rounding 1")}, sphere{std::vector<Vector3d>{Vector3d::Zero()}, {1.}};
+  ContactCore plain; // an atom's radius is added to it
+  Random r(5);
+  for (int n = 0; n < 50; ++n) {
+    Pose pose;
+    pose.a.pose(ball, r.turn());
+    pose.b.pose(ball, r.turn());
+    pose.offset = r.uniform(1.7, 1.99) * r.direction();
+    const Found found = find(pose, 0.1);
+    ASSERT_EQ(found.contacts.size(), 1u);
+    EXPECT_NEAR(found.contacts[0].overlap(), 2 - pose.offset.norm(), 1e-15);
+    EXPECT_LT((found.contacts[0].normal + pose.offset.normalized()).norm(), 1e-15);
+    EXPECT_EQ(found.contacts[0].weight, 1);
+    // With the same of a cluster of one, and a plain sphere.
+    Pose with = pose;
+    with.b.pose(sphere, r.turn());
+    EXPECT_NEAR(find(with, 0.1).contacts.at(0).overlap(), 2 - pose.offset.norm(), 1e-15);
+    with.b.pose(plain, Matrix3d::Identity());
+    FeatureSearch search;
+    const BodyPair pair{{&with.a}, {&with.b, 1.}, with.offset};
+    search.search(pair, 0.1);
+    Manifolds m;
+    m.add(pair, search.found().data(), static_cast<int>(search.found().size()));
+    m.evaluate();
+    ASSERT_EQ(m.contacts().size(), 1u);
+    EXPECT_NEAR(m.contacts()[0].overlap(), 2 - pose.offset.norm(), 1e-15);
+  }
+}
+
+// A sphere against a hull touches its closest point.
+TEST(SmoothManifold, SpheresAgainstHulls) {
+  Random r(6);
+  const ContactCore ball{made("smooth cube rounding 1")};
+  for (const RoundedHull& hull : kinds()) {
+    const ContactCore core(hull);
+    for (int n = 0; n < 50; ++n) {
+      const Pose pose = random_pose(core, ball, r, core.radius + 0.9);
+      const Found found = find(pose, 0.1);
+      double sum = 0;
+      for (const Contact& c : found.contacts)
+        sum += c.weight;
+      EXPECT_NEAR(sum, 1, 1e-9);
+      EXPECT_NEAR(found.gap, -0.1, 1e-6);
+    }
+  }
+}
+
+// Without an edge in touch a hull is the cluster of spheres at its vertices: on a plane, in a hole.
+TEST(SmoothManifold, OnAPlaneAHullIsItsVertices) {
+  Random r(7);
+  const RoundedHull hull = made("smooth cube rounding .2");
+  const ContactCore core(hull),
+      cluster(hull.polyhedron()->vertices, std::vector<double>(hull.polyhedron()->vertices.size(), hull.radius()));
+  for (int n = 0; n < 200; ++n) {
+    const Matrix3d turn = r.turn();
+    PosedCore a, b;
+    a.pose(core, turn);
+    b.pose(cluster, turn);
+    const Vector3d normal = r.direction();
+    std::vector<Contact> of_hull, of_cluster;
+    const double height = r.uniform(0.3, 1) * core.bound;
+    plane_contacts({&a}, normal, height, of_hull);
+    plane_contacts({&b}, normal, height, of_cluster);
+    const CylinderWall hole{0.5 * r.direction(), normal, 1.5};
+    hole_contacts({&a}, hole, of_hull);
+    hole_contacts({&b}, hole, of_cluster);
+    ASSERT_EQ(of_hull.size(), of_cluster.size());
+    for (std::size_t k = 0; k < of_hull.size(); ++k) {
+      EXPECT_EQ(of_hull[k].id, of_cluster[k].id);
+      EXPECT_EQ(of_hull[k].distance, of_cluster[k].distance);
+      EXPECT_EQ(of_hull[k].arm, of_cluster[k].arm);
+      EXPECT_EQ(of_hull[k].normal, of_cluster[k].normal);
+    }
+  }
+}
+
+// Over the middle of a triangle a hull touches as it touches the triangle's plane.
+TEST(SmoothManifold, OverATriangleAHullIsOnAPlane) {
+  Random r(8);
+  const ContactCore triangle(eccentra::shape::make_core({{9, 0, 0}, {-5, 8, 0}, {-5, -8, 0}}, {{0, 1, 2}, {0, 2, 1}}),
+                             0.);
+  for (const char* line : {"smooth cube rounding .2", "smooth disk aspect .31 rounding .5"}) {
+    const ContactCore core(made(line));
+    for (int n = 0; n < 100; ++n) {
+      Pose pose;
+      pose.a.pose(core, r.turn());
+      pose.b.pose(triangle, Matrix3d::Identity());
+      const double height = pose.a.reach_along({0, 0, -1}) + 0.9 * core.radius;
+      pose.offset = {0, 0, -height};
+      std::vector<Contact> on_plane;
+      plane_contacts({&pose.a}, {0, 0, 1}, height, on_plane);
+      const Load plane = load_of(on_plane), mesh = load_of(find(pose, 0.1).contacts);
+      EXPECT_LT((plane.force - mesh.force).norm(), 1e-6 * plane.force.norm());
+      EXPECT_LT((plane.torque - mesh.torque).norm(), 1e-6 * plane.force.norm());
+    }
+  }
+}
+
+// On a pipe of very large radius a body stands as on a plane; on a thin one an edge touches with its middle.
+TEST(SmoothManifold, OnAPipe) {
+  const ContactCore core(made("smooth cube rounding .2"));
+  PosedCore cube;
+  cube.pose(core, Matrix3d::Identity());
+  const double half = core.half.z() + core.radius;
+  std::vector<Contact> found;
+  pipe_contacts({&cube}, {{0, 0, -half - 0.29}, Vector3d::UnitX(), 0.3}, found);
+  ASSERT_EQ(found.size(), 2u); // the two lower edges across the pipe
+  for (const Contact& c : found) {
+    EXPECT_GE(c.id, core.points);
+    EXPECT_NEAR(c.overlap(), 0.01, 1e-12);
+    EXPECT_EQ(c.weight, 1);
+  }
+  found.clear();
+  const double large = 1e7;
+  pipe_contacts({&cube}, {{0, 0, -half - large + 0.01}, Vector3d::UnitX(), large}, found);
+  Load load = load_of(found);
+  EXPECT_NEAR(load.force.z(), 4 * std::pow(0.01, 1.5), 1e-4 * load.force.z());
+  // A disk's side across a pipe.
+  const ContactCore thick(made("smooth disk aspect 1 rounding .2"));
+  PosedCore disk;
+  disk.pose(thick, Matrix3d::Identity());
+  found.clear();
+  const double outer = thick.half.x() + thick.radius;
+  pipe_contacts({&disk}, {{-outer - 0.29, 0, 0}, Vector3d::UnitY(), 0.3}, found);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].id, thick.axis_feature());
+  EXPECT_NEAR(found[0].overlap(), 0.01, 1e-12);
+}
+
+// Two disks side by side: crossed, the sides touch; parallel, the rims.
+TEST(SmoothManifold, SidesOfDisks) {
+  const ContactCore core(made("smooth disk aspect 1 rounding .2"));
+  const double outer = core.half.x() + core.radius;
+  Pose pose;
+  pose.a.pose(core, Matrix3d::Identity());
+  pose.b.pose(core, AngleAxisd(M_PI / 2, Vector3d::UnitX()).toRotationMatrix());
+  pose.offset = {2 * outer - 0.005, 0, 0};
+  const Found crossed = find(pose, 0.1);
+  ASSERT_EQ(crossed.contacts.size(), 1u);
+  EXPECT_EQ(crossed.contacts[0].id, feature_id(core.axis_feature(), core.axis_feature()));
+  EXPECT_NEAR(crossed.contacts[0].overlap(), 0.005, 1e-12);
+  pose.b.pose(core, AngleAxisd(0.1, Vector3d::UnitZ()).toRotationMatrix());
+  const Found parallel = find(pose, 0.1);
+  EXPECT_GT(parallel.contacts.size(), 1u);
+  EXPECT_NEAR(load_of(parallel.contacts).torque.y(), 0, 1e-9);
+}
+
+} // namespace
