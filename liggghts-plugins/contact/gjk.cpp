@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -109,6 +110,29 @@ class Simplex {
   }
 };
 
+/// Projections onto one core and the other in turn, which come to the closest points from anywhere: slow and sure, for
+/// smooth rims whose simplices have become too flat.
+double distance_by_projections(const PosedCore& a, const PosedCore& b, const Vector3d& offset, double size) {
+  constexpr int limit = 20000;
+  constexpr double precision = 1e-13;
+  Vector3d on_b = offset;
+  double before = std::numeric_limits<double>::max();
+  for (int k = 0; k < limit; ++k) {
+    const shape::CoreDistance to_a = distance_to(a, on_b);
+    if (to_a.distance <= 0)
+      return 0;
+    const Vector3d on_a = on_b - to_a.distance * to_a.normal;
+    const shape::CoreDistance to_b = distance_to(b, on_a - offset);
+    if (to_b.distance <= 0)
+      return 0;
+    on_b = on_a - to_b.distance * to_b.normal;
+    if (before - to_b.distance < precision * size)
+      return to_b.distance;
+    before = to_b.distance;
+  }
+  return before;
+}
+
 } // namespace
 
 double gjk_distance(const PosedCore& a, const PosedCore& b, const Vector3d& offset) {
@@ -119,9 +143,12 @@ double gjk_distance(const PosedCore& a, const PosedCore& b, const Vector3d& offs
   Vector3d v = -offset;
   if (v.squaredNorm() == 0)
     v = Vector3d::UnitX();
-  double best = std::numeric_limits<double>::max();
+  double best = std::numeric_limits<double>::max(), at_least = 0;
   for (int k = 0; k < limit; ++k) {
     const Vector3d w = a.support(-v) - b.support(v) - offset;
+    if (simplex.count > 0)
+      at_least =
+          std::max(at_least, v.dot(w) / v.norm()); // the planes across v through both supports separate the cores
     if (simplex.count > 0 && (v.squaredNorm() - v.dot(w) <= tolerance * v.squaredNorm() || simplex.has(w)))
       break; // nothing is closer
     simplex.add(w);
@@ -134,7 +161,11 @@ double gjk_distance(const PosedCore& a, const PosedCore& b, const Vector3d& offs
     best = square;
     v = next;
   }
-  return v.norm();
+  constexpr double closed = 1e-9;
+  const double distance = v.norm();
+  if (distance - at_least < closed * size || a.core->solid == SolidKind::none || b.core->solid == SolidKind::none)
+    return distance;
+  return std::min(distance, distance_by_projections(a, b, offset, size));
 }
 
 } // namespace eccentra::contact

@@ -4,6 +4,7 @@
 #include "contact/manifold.h"
 
 #include "contact/arc_minimum.h"
+#include "contact/gjk.h"
 #include "contact/hand_over.h"
 #include "contact/least_axis.h"
 
@@ -209,7 +210,8 @@ void Manifolds::take_edge(const Pair& pair, const EdgePair& edge, double& gap) {
   const Vector3d from_b = e.vector(EdgeLanes::bx, lane), along_b = e.vector(EdgeLanes::vx, lane);
   const Vector3d on_a = from_a + e.at(EdgeLanes::s, lane) * along_a;
   const Vector3d apart = on_a - (from_b + e.at(EdgeLanes::t, lane) * along_b);
-  Vector3d normal = distance > 0 ? Vector3d(apart / distance) : Vector3d(along_a.cross(along_b).normalized());
+  const double length_apart = apart.norm();
+  Vector3d normal = length_apart > 0 ? Vector3d(apart / length_apart) : Vector3d(along_a.cross(along_b).normalized());
   // Edges that have passed each other: the normal still leads out of B and into A, from whose centres the edges stand
   // out.
   if (distance < may_have_crossed * reach && normal.dot(from_b + along_b / 2 - pair.bodies.offset) < 0 &&
@@ -245,9 +247,10 @@ void Manifolds::take_edge(const Pair& pair, const EdgePair& edge, double& gap) {
     const double where = e.at(EdgeLanes::at0 + k, lane);
     const Vector3d on = of_a ? Vector3d(from_b + where * along_b) : Vector3d(from_a + where * along_a);
     const Vector3d out = of_a ? Vector3d(end - on) : Vector3d(on - end);
+    const double length = out.norm();
     contacts_.push_back({of_a ? feature_id(ends[k], feature_line_b) : feature_id(feature_line_a, ends[k]), true,
-                         of_a ? end : on, end_distance[k] > 0 ? Vector3d(out / end_distance[k]) : normal,
-                         end_distance[k], reach, radius_a, -share.loss[k]});
+                         of_a ? end : on, length > 0 ? Vector3d(out / length) : normal, end_distance[k], reach,
+                         radius_a, -share.loss[k]});
   }
   const double weight = share.line;
   if (weight > no_weight)
@@ -383,6 +386,12 @@ double Manifolds::soften_sunk(const BodyPair& pair, int first) {
   const double radius_a = radius_of(pair.a, 0), reach = radius_a + radius_of(pair.b, 0);
   const SeparatingAxis axis = least_axis(a, b, pair.offset);
   if (axis.separation >= 0)
+    return 0;
+  // Of flat and smooth cores not all axes are asked: that none of them separates does not mean that cores overlap.
+  const auto all_axes = [](const PosedCore& of) {
+    return of.core->solid == SolidKind::box || of.core->solid == SolidKind::polyhedron;
+  };
+  if (!(all_axes(a) && all_axes(b)) && gjk_distance(a, b, pair.offset) > 0)
     return 0;
   const double depth = -axis.separation, turned = std::min(1., depth / (turning_depth * reach));
   const double front_b = pair.offset.dot(axis.normal) + b.reach_along(axis.normal),

@@ -189,7 +189,7 @@ TEST(SmoothManifold, DistancesAgreeWithASlowReference) {
   std::vector<ContactCore> cores;
   for (const RoundedHull& h : kinds())
     cores.emplace_back(h);
-  double worst_gjk = 0, worst_manifold = 0;
+  double worst_gjk = 0, worst_manifold = 0, worst_disk = 0;
   for (const ContactCore& a : cores)
     for (const ContactCore& b : cores)
       for (int n = 0; n < 60; ++n) {
@@ -203,12 +203,13 @@ TEST(SmoothManifold, DistancesAgreeWithASlowReference) {
         const Found found = find(pose, 1.5 * reach);
         // The closest of its contacts is at the distance of the bodies, and the gap is no wider.
         ASSERT_FALSE(std::isnan(found.gap));
-        EXPECT_LT(found.gap, gjk - reach + 1e-6);
+        EXPECT_LT(found.gap, gjk - reach + 5e-3 * reach);
         double closest = reach;
         for (const Contact& c : found.contacts)
           closest = std::min(closest, c.distance);
+        double& worst = a.is_disk() || b.is_disk() ? worst_disk : worst_manifold;
         if (gjk < reach)
-          worst_manifold = std::max(worst_manifold, std::abs(closest - gjk));
+          worst = std::max(worst, std::abs(closest - gjk) / reach);
         for (const Contact& c : found.contacts) {
           ASSERT_NEAR(c.normal.norm(), 1, 1e-9);
           ASSERT_GT(c.overlap(), 0);
@@ -219,10 +220,11 @@ TEST(SmoothManifold, DistancesAgreeWithASlowReference) {
         EXPECT_LE(best_face_axis(pose.a, pose.b, pose.offset).separation, gjk + 1e-9);
         EXPECT_LE(least_axis(pose.a, pose.b, pose.offset).separation, gjk + 1e-9);
       }
-  std::printf("worst error of GJK %.1e, of the manifold's gap %.1e (bodies of diameter 2)\n", worst_gjk,
-              worst_manifold);
-  EXPECT_LT(worst_gjk, 1e-7);
-  EXPECT_LT(worst_manifold, 2e-6);
+  std::printf("worst error of GJK %.1e; of the closest contact over the reach %.1e, with a disk %.1e\n", worst_gjk,
+              worst_manifold, worst_disk);
+  EXPECT_LT(worst_gjk, 1e-9);
+  EXPECT_LT(worst_manifold, 1e-9);
+  EXPECT_LT(worst_disk, 5e-3); // an arc that has two closest points gives one of them
 }
 
 // Any pose, however deep: finite numbers, unit normals.
