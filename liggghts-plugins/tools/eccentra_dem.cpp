@@ -3,6 +3,9 @@
 // The launcher: LIGGGHTS with our styles, used exactly as the `liggghts` command is.
 #include "eccentra/version.h"
 #include "link/checkpoint/checkpoint_choice.h"
+#include "link/checkpoint/checkpoint_room.h"
+#include "link/checkpoint/resume_command.h"
+#include "styles/entry/script_replay.h"
 #include "styles/entry/style_registry.h"
 
 #include <mpi.h>
@@ -13,7 +16,10 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -22,7 +28,7 @@ namespace {
 void print_styles() {
   std::printf("eccentra-dem %s for LIGGGHTS-PUBLIC %s\n", ECCENTRA_VERSION, ECCENTRA_LIGGGHTS_VERSION);
   std::printf("usage: eccentra-dem -in SCRIPT [-resume] [any option of liggghts]\n"
-              "  -resume: go on from the newest complete checkpoint of a coupled run (docs/checkpoints.md)\n\nStyles "
+              "  -resume: go on from the newest complete checkpoint (docs/checkpoints.md)\n\nStyles "
               "beyond those of LIGGGHTS:\n");
   for (const auto& record : eccentra::styles::style_records())
     std::printf("  %-17s %-34s %s\n", record.kind.c_str(), record.name.c_str(), record.summary.c_str());
@@ -37,27 +43,82 @@ void install_signal_handlers() {
   struct sigaction warning = {};
   warning.sa_handler = LAMMPS_NS::SignalHandler::usr1_handler;
   sigaction(SIGUSR1, &warning, nullptr);
+  // A file that may not grow further is told to whoever writes it.
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
-/// Words of the command line that make the script go on from the newest complete checkpoint; the same on all ranks.
-std::vector<std::string> arguments_to_resume() {
+/// Text of the first rank on all.
+std::string shared(std::string text) {
+  int bytes = static_cast<int>(text.size());
+  MPI_Bcast(&bytes, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  text.resize(bytes);
+  MPI_Bcast(text.data(), bytes, MPI_CHAR, 0, MPI_COMM_WORLD);
+  return text;
+}
+
+/// The newest complete checkpoint, the same on all ranks. Ends the program where there are checkpoints and none is
+/// complete.
+eccentra::link::CheckpointChoice choose_checkpoint() {
   using namespace eccentra::link;
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   CheckpointChoice choice;
+  std::string notes;
   if (rank == 0) {
     choice = newest_checkpoint(fluid_record_is_whole);
     for (const std::string& sentence : choice.passed_over)
       std::printf("%s\n", sentence.c_str());
+    if (choice.none_is_whole()) {
+      std::fprintf(stderr,
+                   "eccentra-dem: error: none of the checkpoints in '%s' is complete: remove or rename that "
+                   "folder to begin anew\n",
+                   kCheckpoints);
+      std::fflush(nullptr);
+      MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
+    }
     if (choice.mark.step < 0)
       std::printf("no complete checkpoint: the run begins at its beginning\n");
     else
       std::printf("the run goes on from checkpoint %lld\n", static_cast<long long>(choice.mark.step));
+    for (const auto& [name, value] : choice.notes)
+      notes += name + ' ' + value + '\n';
   }
   // The file's name follows from the step.
   MPI_Bcast(&choice.mark, sizeof choice.mark, MPI_BYTE, 0, MPI_COMM_WORLD);
   choice.restart_file = restart_file_of(choice.mark);
-  return script_variables(choice);
+  std::istringstream lines(shared(notes));
+  choice.notes.clear();
+  for (std::string line; std::getline(lines, line);)
+    choice.notes.emplace_back(line.substr(0, line.find(' ')), line.substr(line.find(' ') + 1));
+  return choice;
+}
+
+/// The log of the interrupted run stays, under another name.
+void keep_log(int argc, char** argv) {
+  std::string log = "log.liggghts";
+  for (int i = 1; i + 1 < argc; ++i)
+    if (!std::strcmp(argv[i], "-log") || !std::strcmp(argv[i], "-l"))
+      log = argv[i + 1];
+  std::error_code unreachable;
+  if (!std::filesystem::is_regular_file(log, unreachable))
+    return;
+  try {
+    eccentra::link::keep_beside(log);
+  } catch (const eccentra::link::Refusal& refusal) {
+    std::printf("warning: %s\n", refusal.what());
+  }
+}
+
+/// Runs the script, and says so where its end has been reached.
+void run_script(std::vector<char*> arguments) {
+  LAMMPS_NS::LAMMPS liggghts(static_cast<int>(arguments.size()), arguments.data(), MPI_COMM_WORLD);
+  liggghts.input->file();
+  if (LAMMPS_NS::SignalHandler::request_quit || !eccentra::styles::keeps_checkpoints(&liggghts))
+    return;
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0)
+    eccentra::link::mark_finished(".");
 }
 
 } // namespace
@@ -69,6 +130,7 @@ int main(int argc, char** argv) {
       return 0;
     }
   }
+  eccentra::link::remember_command(argc, argv);
   install_signal_handlers();
   MPI_Init(&argc, &argv);
   std::vector<std::string> words;
@@ -77,16 +139,34 @@ int main(int argc, char** argv) {
       words.emplace_back(argv[i]);
       continue;
     }
-    const std::vector<std::string> more = arguments_to_resume();
+    const eccentra::link::CheckpointChoice choice = choose_checkpoint();
+    eccentra::styles::resume_from(choice);
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    if (rank == 0 && choice.mark.step >= 0)
+      keep_log(argc, argv);
+    const std::vector<std::string> more = eccentra::link::script_variables(choice);
     words.insert(words.end(), more.begin(), more.end());
   }
   std::vector<char*> arguments;
   for (std::string& word : words)
     arguments.push_back(word.data());
-  {
-    LAMMPS_NS::LAMMPS liggghts(static_cast<int>(arguments.size()), arguments.data(), MPI_COMM_WORLD);
-    liggghts.input->file();
+  try {
+    run_script(arguments);
+  } catch (const eccentra::link::Refusal& refusal) {
+    std::fprintf(stderr, "eccentra-dem: error: %s\n", refusal.what());
+    MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
   }
+  std::fflush(stdout);
+  bool lost = std::ferror(stdout) != 0;
+  if (lost) {
+    std::clearerr(stdout);
+    std::printf("warning: messages before this one have found no room in standard output\n");
+    lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  }
+  if (lost)
+    std::fprintf(stderr, "eccentra-dem: error: the script has come to its end but standard output takes no "
+                         "messages: give them a file or disk with room\n");
   MPI_Finalize();
-  return 0;
+  return lost ? EXIT_FAILURE : EXIT_SUCCESS;
 }

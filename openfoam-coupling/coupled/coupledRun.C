@@ -135,6 +135,7 @@ void coupledRun::run() {
   time_.functionObjects().end();
   writer_.writeNow();
   writer_.finish();
+  fluidCheckpoint::finish(time_);
 }
 
 void coupledRun::hostScript() {
@@ -147,7 +148,7 @@ void coupledRun::hostScript() {
   link::hosting_solver() = this;
   const trapping off(0);
   run_dem_script(script, properties_.getOrDefault<fileName>("demLog", "log.liggghts"),
-                 resume_ ? link::script_variables(newestCheckpoint()) : std::vector<std::string>());
+                 resume_ ? std::make_optional(newestCheckpoint()) : std::nullopt);
   link::hosting_solver() = nullptr;
   if (!flow_)
     throw inputError(properties_, "demScript", script, "it never ran a fix fluid/couple with link solver: add one");
@@ -181,7 +182,7 @@ link::FluidTerms coupledRun::agree(const link::DemTerms& dem) {
   // A checkpoint brings fields of its own: the flow is made from those of the beginning, not from a folder of a later
   // time that a full disk may have left in pieces.
   if (!flow_)
-    fluidCheckpoint::begin(time_, resume_ || dem.resumes.step >= 0);
+    fluidCheckpoint::begin(time_, resume_ || dem.resumes.step >= 0, dem.resumes.step);
   if (!flow_)
     flow_ = std::make_unique<averagedFlow>(mesh_, averagedFlow::particles::coupled);
   endOnArithmeticFault(

@@ -12,8 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <system_error>
+#include <sstream>
 
 namespace eccentra {
 
@@ -23,6 +22,13 @@ namespace {
 
 /// Cells with more solid than this belong to the bed.
 constexpr double kBedSolid = 0.3;
+constexpr int kDigits = 13; ///< of the table
+const std::string kHeading =
+    "time,particles,mean_velocity,pressure_gradient,solid_concentration,solids_flux,com_x,com_y,com_z,com_height,"
+    "bed_height,bed_area,fastest_particle,least_fraction,courant,continuity_error,volume_error,impulse_error,"
+    "pressure_error,dem_seconds,fluid_seconds,exchange_seconds,link_seconds,"
+    "inserted,left,inserted_mass,mass,global_continuity_error,"
+    "momentum_x,momentum_y,momentum_z,fastest_fluid";
 /// Gravity across the axis below this part of the whole counts as none: the hole is vertical.
 constexpr double kVertical = 1e-6;
 
@@ -80,25 +86,26 @@ couplingReport::couplingReport(const fvMesh& mesh, const link::DemTerms& dem, in
 void couplingReport::openTable(const dictionary* earlier) {
   const fileName folder(mesh_.time().globalPath() / "postProcessing" / "eccentra");
   mkDir(folder);
-  const std::string file(folder / "coupling.csv");
   // Rows that the earlier run wrote after its checkpoint come again.
-  std::error_code missing;
-  const auto kept = earlier ? static_cast<std::uintmax_t>(earlier->get<scalar>("tableBytes")) : 0;
-  if (kept > 0 && std::filesystem::file_size(file, missing) >= kept && !missing) {
-    std::filesystem::resize_file(file, kept);
-    csv_ = std::make_unique<std::ofstream>(file, std::ios::app | std::ios::ate);
-    csv_->precision(13);
-    return;
+  table_ = std::make_unique<link::DurableTable>(folder / "coupling.csv", kHeading + flowMeasures::columns(mesh_),
+                                                earlier != nullptr, mesh_.time().value());
+  if (earlier) {
+    const label missing = earlier->getOrDefault<label>("rows", 0) - label(table_->rows());
+    if (missing > 0)
+      std::printf("warning: coupling.csv lacks %d rows that the checkpoint's run had written: those that are there "
+                  "are kept\n",
+                  int(missing));
+    for (const string& row : earlier->getOrDefault<List<string>>("pendingRows", List<string>()))
+      table_->add(row);
   }
-  csv_ = std::make_unique<std::ofstream>(file);
-  *csv_ << "time,particles,mean_velocity,pressure_gradient,solid_concentration,solids_flux,com_x,com_y,com_z,com_"
-           "height,"
-           "bed_height,bed_area,fastest_particle,least_fraction,courant,continuity_error,volume_error,impulse_error,"
-           "pressure_error,dem_seconds,fluid_seconds,exchange_seconds,link_seconds,"
-           "inserted,left,inserted_mass,mass,global_continuity_error,"
-           "momentum_x,momentum_y,momentum_z,fastest_fluid"
-        << flowMeasures::columns(mesh_) << '\n';
-  csv_->precision(13);
+  for (const std::string& message : table_->take_messages())
+    std::printf("%s\n", message.c_str());
+}
+
+void couplingReport::addRow(const std::string& row) {
+  table_->add(row);
+  for (const std::string& message : table_->take_messages())
+    std::printf("%s\n", message.c_str());
 }
 
 std::array<double, 4> couplingReport::parts() const {
@@ -115,7 +122,13 @@ dictionary couplingReport::state() const {
   state.add("fluid", parts[1]);
   state.add("exchange", parts[2]);
   state.add("link", parts[3]);
-  state.add("tableBytes", csv_ ? scalar(csv_->tellp()) : 0.0);
+  if (table_) {
+    table_->sync();
+    state.add("rows", label(table_->rows()));
+    List<string> pending(label(table_->pending().size()));
+    forAll(pending, i) pending[i] = table_->pending()[std::size_t(i)];
+    state.add("pendingRows", pending);
+  }
   return state;
 }
 
@@ -202,16 +215,19 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
   warn(flow, measures.Reynolds);
   if (!Pstream::master())
     return;
-  *csv_ << mesh_.time().value() << ',' << totals.particles << ',' << meanVelocity << ',' << gradient << ','
-        << concentration << ',' << flux << ',' << centre.x() << ',' << centre.y() << ',' << centre.z() << ','
-        << (totals.particles ? lowest_ - (centre & down_) : 0.0) << ',' << bed.height << ',' << bed.area << ','
-        << totals.fastest << ',' << bed.minFraction << ',' << courant << ',' << continuity << ',' << volumeError << ','
-        << impulseError << ',' << pressureError;
+  std::ostringstream row;
+  row.precision(kDigits);
+  row << mesh_.time().value() << ',' << totals.particles << ',' << meanVelocity << ',' << gradient << ','
+      << concentration << ',' << flux << ',' << centre.x() << ',' << centre.y() << ',' << centre.z() << ','
+      << (totals.particles ? lowest_ - (centre & down_) : 0.0) << ',' << bed.height << ',' << bed.area << ','
+      << totals.fastest << ',' << bed.minFraction << ',' << courant << ',' << continuity << ',' << volumeError << ','
+      << impulseError << ',' << pressureError;
   for (const double part : parts)
-    *csv_ << ',' << part;
-  *csv_ << ',' << totals.inserted << ',' << left << ',' << totals.inserted_mass << ',' << totals.mass << ','
-        << globalContinuity << ',' << momentum.x() << ',' << momentum.y() << ',' << momentum.z() << ',' << fastestFluid
-        << measures.values() << std::endl;
+    row << ',' << part;
+  row << ',' << totals.inserted << ',' << left << ',' << totals.inserted_mass << ',' << totals.mass << ','
+      << globalContinuity << ',' << momentum.x() << ',' << momentum.y() << ',' << momentum.z() << ',' << fastestFluid
+      << measures.values();
+  addRow(row.str());
 
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   const double done =
@@ -260,6 +276,11 @@ void couplingReport::finish(averagedFlow& flow) const {
   printLink(link, dem, fluid);
   if (Pstream::master())
     std::printf("%s", flow.convergence().summary().c_str());
+  const label pending = returnReduce(table_ ? label(table_->pending().size()) : 0, maxOp<label>());
+  if (pending > 0)
+    throw link::Refusal("the last " + std::to_string(pending) + " rows of coupling.csv found no room on the disk" +
+                        (table_ ? " (" + table_->problem() + ")" : "") +
+                        ": make room and go on from the last checkpoint with -resume");
 }
 
 // The link beside what it links: a step of either side.

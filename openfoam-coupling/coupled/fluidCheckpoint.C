@@ -5,6 +5,8 @@
 
 #include "coupled/fieldsOfParts.H"
 
+#include "link/checkpoint/checkpoint_choice.h"
+#include "link/checkpoint/checkpoint_room.h"
 #include "link/checkpoint/durable_files.h"
 
 #include "IFstream.H"
@@ -14,6 +16,7 @@
 #include "Time.H"
 #include "zeroGradientFvPatchFields.H"
 
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -27,19 +30,19 @@ namespace {
 /// Digits that bring a double back bit for bit.
 constexpr int kAllDigits = 17;
 constexpr int kKept = 2;
-const char* const kFolder = "checkpoints";
-const char* const kPrefix = "fluid-";
-const char* const kComplete = ".complete";
+constexpr label kFingerprint = 16;
+/// Of two fingerprints; a cell's place in sizes of the mesh.
+constexpr scalar kSamePlace = 1e-5;
 const char* const kFacts = "facts";
 const char* const kPart = "part";
 
 std::string named(std::int64_t step) {
-  return kPrefix + std::to_string(step);
+  return link::kFluidPrefix + std::to_string(step);
 }
 
 /// In the case, not in the processor folders: decomposePar removes these when the ranks become others.
 fileName stepFolder(const Time& time, std::int64_t step) {
-  return time.globalPath() / kFolder / named(step);
+  return time.globalPath() / link::kCheckpoints / named(step);
 }
 
 fileName rankFolder(const Time& time, std::int64_t step, label rank) {
@@ -47,7 +50,7 @@ fileName rankFolder(const Time& time, std::int64_t step, label rank) {
 }
 
 std::string recordOf(const Time& time, std::int64_t step) {
-  return time.globalPath() / kFolder / (named(step) + kComplete);
+  return time.globalPath() / link::kCheckpoints / (named(step) + link::kFluidRecord);
 }
 
 const char* const kWriting = "no checkpoint could be written: ";
@@ -162,13 +165,13 @@ meshPart storedPart(const Time& time, std::int64_t step, label rank) {
   return part;
 }
 
-/// Also those that are newer: they belong to a run that was given up. On the first rank, when all have written.
-void removeOthers(const Time& time, std::int64_t step) {
+/// Those that are newer were kept beside when the run began. On the first rank, when all have written.
+void removeOld(const Time& time, std::int64_t step) {
   if (!Pstream::master())
     return;
   int kept = 0;
-  for (const std::int64_t other : link::numbered_entries(time.globalPath() / kFolder, kPrefix)) {
-    if (other <= step && kept++ < kKept)
+  for (const std::int64_t other : link::numbered_entries(time.globalPath() / link::kCheckpoints, link::kFluidPrefix)) {
+    if (other > step || kept++ < kKept)
       continue;
     std::error_code ignored;
     std::filesystem::remove(recordOf(time, other), ignored);
@@ -217,7 +220,7 @@ std::string write(averagedFlow& flow, bool pending, const std::vector<scalarFiel
     std::filesystem::create_directories(std::filesystem::path(recordOf(time, mark.step)).parent_path());
     link::write_record(recordOf(time, mark.step), mark, notes);
   });
-  removeOthers(time, mark.step);
+  removeOld(time, mark.step);
   return recordOf(time, mark.step);
 }
 
@@ -233,9 +236,50 @@ std::uint64_t layoutOf(const fvMesh& mesh) {
   return hash;
 }
 
-void begin(Time& time, bool again) {
-  const std::string path = time.globalPath() / kFolder / "start";
+// Sums of the cells' centres and volumes with weights of either sign that only the cell's number in the whole mesh
+// decides: a cell that moves, or changes places with another, changes them by what it has moved.
+scalarList fingerprint(const fvMesh& mesh) {
+  const boundBox box(mesh.points(), true);
+  const scalar size = max(mag(box.span()), VSMALL);
+  const labelList numbers(meshPart(mesh).cells);
+  scalarList sums(kFingerprint, Zero);
+  forAll(mesh.C(), celli) {
+    std::uint64_t bits = (std::uint64_t(numbers.empty() ? celli : numbers[celli]) + 1) * 0x9e3779b97f4a7c15;
+    bits ^= bits >> 29;
+    bits *= 0xbf58476d1ce4e5b9;
+    bits ^= bits >> 32;
+    const vector at((mesh.C()[celli] - box.min()) / size);
+    const scalar volume = std::cbrt(mesh.V()[celli]) / size;
+    const scalar values[] = {at.x(), at.y(), at.z(), volume};
+    forAll(sums, k) sums[k] += ((bits >> k) & 1 ? 1 : -1) * values[k % 4];
+  }
+  for (scalar& sum : sums)
+    reduce(sum, sumOp<scalar>());
+  const scalar cells = returnReduce(mesh.nCells(), sumOp<label>());
+  for (scalar& sum : sums)
+    sum /= std::sqrt(cells);
+  sums.append(cells);
+  sums.append(size);
+  return sums;
+}
+
+bool sameMesh(const scalarList& a, const scalarList& b) {
+  bool same = a.size() == b.size();
+  for (label k = 0; same && k < a.size(); ++k)
+    same = mag(a[k] - b[k]) <= kSamePlace * max(scalar(1), mag(a[k]));
+  return same;
+}
+
+void begin(Time& time, bool again, std::int64_t step) {
+  const std::string path = time.globalPath() / link::kCheckpoints / "start";
   const std::optional<link::Manifest> earlier = again ? link::read_record(path) : std::nullopt;
+  std::string moved;
+  together("", [&] {
+    if (Pstream::master())
+      moved = link::make_room_for_checkpoints(time.globalPath(), link::Side::fluid, step, again);
+  });
+  if (!moved.empty())
+    Info << moved.c_str() << endl;
   // All have looked before the first rank writes: one that is late would find what the first has just written.
   if (returnReduce(earlier.has_value(), andOp<bool>())) {
     const scalar usual = time.deltaTValue();
@@ -251,6 +295,13 @@ void begin(Time& time, bool again) {
       return;
     std::filesystem::create_directories(std::filesystem::path(path).parent_path());
     link::write_record(path, {0, 0}, {{"time", value.str()}});
+  });
+}
+
+void finish(const Time& time) {
+  together("", [&] {
+    if (Pstream::master())
+      link::mark_finished(time.globalPath());
   });
 }
 

@@ -10,6 +10,9 @@
 #include "support/fieldWriter.H"
 #include "support/inputError.H"
 #include "support/openfoamFolder.H"
+#include "support/patientOutput.H"
+
+#include "link/checkpoint/resume_command.h"
 
 #include "Time.H"
 #include "argList.H"
@@ -54,14 +57,21 @@ void run(const argList& args) {
 } // namespace
 
 int main(int argc, char* argv[]) {
+  const eccentra::patientOutput output;
   eccentra::refuseUnusableCaseFolder(argc, argv);
   argList::addNote("Flow of a Herschel-Bulkley fluid in an annulus, alone or with particles");
   argList::noBanner();
   argList::addBoolOption("verbose", "print the residuals of every linear solve");
   argList::addBoolOption("resume", "go on from the newest complete checkpoint of a coupled run (docs/checkpoints.md)");
+  eccentra::link::remember_command(argc, argv);
   const argList args(argc, argv);
   eccentra::endOnArithmeticFault("annulusFoam: error: a number that is read is out of range (a division by zero or an "
                                  "overflow): correct it in the dictionaries, the fields or their FoamFile headers\n");
-  runReportingErrors("annulusFoam", [&] { run(args); });
+  runReportingErrors("annulusFoam", [&] {
+    run(args);
+    if (eccentra::patientOutput::fails())
+      throw inputError("the run has come to its end but standard output takes no messages: give them a "
+                       "file or disk with room");
+  });
   return 0;
 }

@@ -3,6 +3,7 @@
 // Hosts LIGGGHTS; kept apart from OpenFOAM's headers and macros.
 #include "coupled/embeddedDem.h"
 
+#include "styles/entry/script_replay.h"
 #include "styles/entry/style_registry.h"
 
 #include <mpi.h>
@@ -41,7 +42,8 @@ void show_error_of_log() {
 
 } // namespace
 
-void run_dem_script(const std::string& script, const std::string& log, const std::vector<std::string>& more) {
+void run_dem_script(const std::string& script, const std::string& log,
+                    const std::optional<link::CheckpointChoice>& resumes) {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (rank == 0) {
@@ -50,7 +52,11 @@ void run_dem_script(const std::string& script, const std::string& log, const std
   }
   // Not "-screen none": some stock styles print without asking whether there is a screen.
   std::vector<std::string> words = {"liggghts", "-log", log, "-screen", "/dev/null"};
-  words.insert(words.end(), more.begin(), more.end());
+  if (resumes) {
+    styles::resume_from(*resumes);
+    const std::vector<std::string> more = link::script_variables(*resumes);
+    words.insert(words.end(), more.begin(), more.end());
+  }
   std::vector<char*> arguments;
   for (std::string& word : words)
     arguments.push_back(word.data());

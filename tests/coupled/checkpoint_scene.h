@@ -14,7 +14,9 @@ constexpr int kStepsPerCouplingStep = 40;
 
 /// Bodies that are thrown together over a floor, in a fluid that they stir. `link`: arguments after `link`, with
 /// whatever follows; ends at DEM step `steps`. The state then is in the file end.bodies, 17 digits, by tag.
-inline BoxCase stirred_box(const std::string& link, int steps, bool clusters, bool screen = false) {
+/// `resumable`: the script has that word; else it reads its checkpoint itself.
+inline BoxCase stirred_box(const std::string& link, int steps, bool clusters, bool screen = false,
+                           bool resumable = false) {
   BoxCase box;
   box.size[0] = box.size[1] = 0.036;
   box.size[2] = 0.054;
@@ -39,10 +41,10 @@ inline BoxCase stirred_box(const std::string& link, int steps, bool clusters, bo
   const std::string pair = clusters ? "pair_style gran/cluster model hertz tangential history\n"
                                     : "pair_style gran model hertz tangential history\n";
   box.script =
-      "variable resumes index 0\n"
+      std::string(resumable ? "resumable\n" : "variable resumes index 0\n") +
       "atom_style granular\natom_modify map array\nboundary p p f\nnewton off\ncommunicate single vel yes\nunits si\n"
-      "processors 1 1 *\n"
-      "if \"${resumes}\" then \"jump in.dem again\"\n"
+      "processors 1 1 *\n" +
+      (resumable ? "" : "if \"${resumes}\" then \"jump in.dem again\"\n") +
       "region box block 0 0.036 0 0.036 0 0.054 units box\ncreate_box 1 box\n";
   const std::string shape =
       "fix body all particletemplate/cluster 15485863 atom_type 1 density constant 2619 shape cube "
@@ -57,10 +59,12 @@ inline BoxCase stirred_box(const std::string& link, int steps, bool clusters, bo
                   "fix move all nve/cluster\ntimestep 5e-5\nrun 1\nunfix pour\nreset_timestep 0\n";
   else
     box.script += beginning + "set group all diameter 6e-3 density 2619\n" + bodies;
+  if (!resumable)
+    box.script += "jump in.dem onward\nlabel again\nread_restart ${checkpoint}\n" +
+                  (clusters ? common + pair + "pair_coeff * *\n" + shape + "fix move all nve/cluster\n" : "") +
+                  "label onward\n";
   box.script +=
-      std::string("jump in.dem onward\nlabel again\nread_restart ${checkpoint}\n") +
-      (clusters ? common + pair + "pair_coeff * *\n" + shape + "fix move all nve/cluster\n" : "") +
-      "label onward\nneighbor 0.002 bin\nneigh_modify delay 0\n" +
+      std::string("neighbor 0.002 bin\nneigh_modify delay 0\n") +
       (clusters ? "" : common + pair + "pair_coeff * *\nfix move all nve/sphere\n") +
       "timestep 5e-5\n"
       "fix floor all wall/gran/cluster model hertz tangential history primitive type 1 zplane 0\n"

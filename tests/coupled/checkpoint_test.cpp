@@ -104,6 +104,14 @@ TEST(Checkpoint, ClustersAndTheVerdictOfTheScreenGoOnWithTheSameDigits) {
   expect_same_digits(stirred_box(kWords, kSteps, true, true), "clusters", 1);
 }
 
+TEST(Checkpoint, ResumableScriptOfSpheresGoesOnWithTheSameDigits) {
+  expect_same_digits(stirred_box(kWords, kSteps, false, false, true), "resumable_spheres", 1);
+}
+
+TEST(Checkpoint, ResumableScriptOfClustersGoesOnWithTheSameDigits) {
+  expect_same_digits(stirred_box(kWords, kSteps, true, true, true), "resumable_clusters", 1);
+}
+
 // Ranks change the order of sums, and with it the last digits, which contacts carry on.
 TEST(Checkpoint, AnyNumberOfRanksGoesOnToRoundOff) {
   constexpr double kRoundOff = 1e-9;

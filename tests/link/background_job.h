@@ -46,6 +46,7 @@ class BackgroundJob {
   }
 
   void signal(int number) const { kill(process_, number); }
+  pid_t id() const { return process_; }
 
   /// Exit code, 128 + signal, or -1 if it still runs after `seconds`.
   int wait(double seconds) {

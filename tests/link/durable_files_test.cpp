@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Folders are there in full or not at all; damage of any kind is seen; a disk that is full is told, and harms nothing.
 #include "link/checkpoint/checkpoint_choice.h"
+#include "link/checkpoint/checkpoint_room.h"
 #include "link/checkpoint/durable_files.h"
+#include "link/checkpoint/durable_table.h"
 
 #include <gtest/gtest.h>
 
@@ -160,4 +162,74 @@ TEST_F(DurableFiles, RecordOfTheOtherSideIsFollowed) {
   EXPECT_NE(why.find("has 1 bytes"), std::string::npos) << why;
   dem.notes = {{"fluid", "/no/such/folder/on/this/machine/fluid-640.complete"}};
   EXPECT_TRUE(fluid_record_is_whole(dem, why));
+}
+
+namespace {
+
+std::string text_of(const std::string& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+} // namespace
+
+TEST_F(DurableFiles, TableLosesNoRowToADiskThatIsFullForAWhile) {
+  const std::string row(100, '7');
+  DurableTable table("table.csv", "time,value", false, 0);
+  table.add("0," + row);
+  {
+    const FullDisk disk(180);
+    table.add("1," + row); // fits in part
+    table.add("2," + row);
+    EXPECT_EQ(table.pending().size(), 2u);
+    EXPECT_EQ(table.take_messages().size(), 1u);
+    EXPECT_EQ(text_of("table.csv"), "time,value\n0," + row + '\n');
+  }
+  table.add("3," + row);
+  EXPECT_TRUE(table.pending().empty());
+  EXPECT_EQ(table.rows(), 4);
+  EXPECT_EQ(text_of("table.csv"), "time,value\n0," + row + "\n1," + row + "\n2," + row + "\n3," + row + '\n');
+}
+
+TEST_F(DurableFiles, TableGoesOnWithTheRowsOfItsRun) {
+  const std::string rows = "time,value\n0,a\n0.1,b\n0.2,c\n";
+  std::ofstream("table.csv") << rows << "0.3,d\n0.4,half a r";
+  {
+    DurableTable table("table.csv", "time,value", true, 0.2);
+    EXPECT_EQ(table.rows(), 3);
+    EXPECT_TRUE(table.take_messages().empty());
+    table.add("0.3,D");
+  }
+  EXPECT_EQ(text_of("table.csv"), rows + "0.3,D\n");
+  // Of a run that it does not continue, or with other columns: kept beside, never over what is there.
+  DurableTable("table.csv", "time,value", false, 0).add("0,x");
+  DurableTable("table.csv", "time,other", true, 1).add("0,y");
+  EXPECT_EQ(text_of("table.csv.before-1"), rows + "0.3,D\n");
+  EXPECT_EQ(text_of("table.csv.before-2"), "time,value\n0,x\n");
+  EXPECT_EQ(text_of("table.csv"), "time,other\n0,y\n");
+}
+
+TEST_F(DurableFiles, WhatAnEarlierRunWroteIsKept) {
+  const auto write_both = [](int step) {
+    write_folder("checkpoints/" + std::to_string(step), {step, 5});
+    fs::create_directories("checkpoints/fluid-" + std::to_string(step));
+    write_record("checkpoints/fluid-" + std::to_string(step) + ".complete", {step, 5}, {});
+  };
+  write_both(320);
+  write_both(640);
+  fs::create_directories("checkpoints/backup");
+  EXPECT_THROW(make_room_for_checkpoints(".", Side::dem, -1, false), Refusal);
+  EXPECT_THROW(make_room_for_checkpoints(".", Side::fluid, -1, false), Refusal);
+  EXPECT_EQ(make_room_for_checkpoints(".", Side::dem, 640, true), "");
+  EXPECT_NE(make_room_for_checkpoints(".", Side::dem, 320, false), "");
+  for (const char* moved : {"640/manifest", "fluid-640", "fluid-640.complete"}) {
+    EXPECT_TRUE(fs::exists(fs::path("checkpoints.before-1") / moved)) << moved;
+    EXPECT_FALSE(fs::exists(fs::path("checkpoints") / moved)) << moved;
+  }
+  mark_finished(".");
+  EXPECT_NE(make_room_for_checkpoints(".", Side::dem, -1, false), "");
+  EXPECT_TRUE(fs::exists("checkpoints.before-2/320/manifest"));
+  EXPECT_TRUE(fs::exists("checkpoints/backup"));
+  EXPECT_FALSE(fs::exists("checkpoints/finished"));
+  EXPECT_EQ(make_room_for_checkpoints(".", Side::dem, -1, false), "");
 }

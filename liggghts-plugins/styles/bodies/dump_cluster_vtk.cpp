@@ -22,6 +22,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <numeric>
@@ -75,19 +76,31 @@ class Rows {
     orientation_->InsertNextTuple(body.orientation);
   }
 
-  /// False where the file cannot be written. It appears whole or not at all.
-  bool write(const std::string& name) {
+  /// The file appears whole or not at all. VTK does not look whether a stream takes what it is given: it fills memory.
+  /// Returns why the file could not be written, or nothing.
+  std::string write(const std::string& name) {
     data_->SetPoints(points_);
     data_->SetVerts(vertices_);
     data_->GetPointData()->SetActiveScalars("radius");
-    const std::string unfinished = name + ".part";
     vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->SetFileName(unfinished.c_str());
     writer->SetInputData(data_);
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
     writer->SetCompressorTypeToNone(); // compression would cost more than the rest of the dump
-    return writer->Write() == 1 && std::rename(unfinished.c_str(), name.c_str()) == 0;
+    writer->WriteToOutputStringOn();
+    if (writer->Write() != 1)
+      return "VTK failed";
+    const std::string contents = writer->GetOutputString();
+    const std::string unfinished = name + ".part";
+    errno = 0;
+    std::FILE* const file = std::fopen(unfinished.c_str(), "wb");
+    bool done = file && std::fwrite(contents.data(), 1, contents.size(), file) == contents.size();
+    done = file && std::fclose(file) == 0 && done;
+    if (done && std::rename(unfinished.c_str(), name.c_str()) == 0)
+      return "";
+    const std::string why = std::strerror(errno);
+    std::remove(unfinished.c_str());
+    return why;
   }
 
  private:
@@ -159,7 +172,7 @@ std::vector<double> DumpClusterVtk::gather() const {
   return all;
 }
 
-void DumpClusterVtk::write_file(const std::vector<double>& rows) const {
+std::string DumpClusterVtk::write_file(const std::vector<double>& rows) const {
   std::vector<Body> sorted(rows.size() / kDoubles);
   if (!sorted.empty())
     std::memcpy(static_cast<void*>(sorted.data()), rows.data(), rows.size() * sizeof(double));
@@ -177,17 +190,18 @@ void DumpClusterVtk::write_file(const std::vector<double>& rows) const {
     for (const shape::Sphere& sphere : bodies->shapes()[shape].spheres())
       out.add(body, x + q * sphere.centre, sphere.radius);
   }
-  const std::string name = file_name();
-  if (!out.write(name))
-    error->one(FLERR, ("dump " + std::string(id) + " cluster/vtk: file '" + name +
-                       "' cannot be written: does its folder exist, and is there room on the disk?")
-                          .c_str());
+  return out.write(file_name());
 }
 
 void DumpClusterVtk::write() {
   const std::vector<double> rows = gather();
-  if (me == 0)
-    write_file(rows);
+  std::string why = me == 0 ? write_file(rows) : "";
+  int failed = !why.empty();
+  MPI_Bcast(&failed, 1, MPI_INT, 0, world);
+  if (failed)
+    error->all(FLERR, ("dump " + std::string(id) + " cluster/vtk: file '" + file_name() + "' cannot be written (" +
+                       why + "): make its folder or room on the disk")
+                          .c_str());
 }
 
 } // namespace eccentra::styles

@@ -27,7 +27,7 @@ class DumpClusterVtk : public LAMMPS_NS::Dump {
 
   std::string file_name() const;
   std::vector<double> gather() const;
-  void write_file(const std::vector<double>& rows) const;
+  std::string write_file(const std::vector<double>& rows) const;
 
   bool bodies_only_ = false;
 };

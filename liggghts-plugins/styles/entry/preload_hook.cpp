@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // LIGGGHTS has no plug-in loader. Its library is not linked -Bsymbolic, so a definition of ours comes first, whether we
 // were preloaded into the stock binary or linked into a launcher: before a script is read, we enter.
+#include "styles/entry/script_replay.h"
 #include "styles/entry/style_registry.h"
 
 #include <mpi.h>
@@ -53,6 +54,17 @@ char* Input::one(const char* line) {
   eccentra::styles::enter(lmp);
   static const auto stock = next_definition<char* (*)(Input*, const char*)>("_ZN9LAMMPS_NS5Input3oneEPKc");
   return stock(this, line);
+}
+
+int Input::execute_command() {
+  static const auto stock = next_definition<int (*)(Input*)>("_ZN9LAMMPS_NS5Input15execute_commandEv");
+  // A command may read another, which takes the place of its arguments.
+  const std::string name = command;
+  const std::vector<std::string> arguments(arg, arg + narg);
+  if (!eccentra::styles::stands_in_for(lmp, name.c_str(), narg, arg) && stock(this) != 0)
+    return -1;
+  eccentra::styles::after(lmp, name, arguments);
+  return 0;
 }
 
 // Dump styles are a chain of comparisons, not a map: make a stock dump in our dump's place, then exchange the two.

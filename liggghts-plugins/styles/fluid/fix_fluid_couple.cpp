@@ -5,6 +5,7 @@
 
 #include "link/stop_signal.h"
 #include "link/waiting.h"
+#include "styles/entry/fix_checkpoint.h"
 #include "styles/entry/style_registry.h"
 
 #include <mpi.h>
@@ -33,7 +34,6 @@ namespace {
 const styles::RegisterFix<FixFluidCouple> kRecord("fluid/couple", "meets a fluid solver every N steps");
 
 constexpr int kCellHintDoubles = 2;
-constexpr int kForceDoubles = 6;
 /// Entries of the vector of stock fix insert/*.
 constexpr int kInsertedNumber = 0;
 constexpr int kInsertedMass = 1;
@@ -107,6 +107,9 @@ void FixFluidCouple::read(const std::vector<std::string>& arguments) {
         address_ = value("an address");
       else if (link_ != "solver")
         refuse("link '" + link_ + "' is unknown: use solver, or socket ADDRESS");
+    } else if (keyword == "checkpoint" && next < arguments.size() &&
+               (arguments[next] == "auto" || arguments[next] == "off")) {
+      checkpoints_ = arguments[next++] == "auto" ? Checkpoints::by_clock : Checkpoints::off;
     } else if (keyword == "every" || keyword == "checkpoint") {
       const std::string what = keyword == "every" ? "DEM steps" : "meetings";
       const std::string& text = value(("a number of " + what).c_str());
@@ -115,6 +118,8 @@ void FixFluidCouple::read(const std::vector<std::string>& arguments) {
       if (end == text.c_str() || *end || number < 1 || number > 1000000000L)
         refuse(keyword + " has '" + text + "': give a whole number of " + what + " from 1 on");
       (keyword == "every" ? interval_ : checkpoint_every_) = static_cast<int>(number);
+      if (keyword == "checkpoint")
+        checkpoints_ = Checkpoints::counted;
     } else if (keyword == "overlap" || keyword == "lanes") {
       const std::string& text = value("yes or no");
       if (text != "yes" && text != "no")
@@ -132,7 +137,8 @@ void FixFluidCouple::read(const std::vector<std::string>& arguments) {
       waits = true;
     } else {
       refuse("unknown word '" + keyword +
-             "': known are link solver, link socket ADDRESS, every N, checkpoint M, keys FOLDER, timeout SECONDS, "
+             "': known are link solver, link socket ADDRESS, every N, checkpoint M|auto|off, keys FOLDER, timeout "
+             "SECONDS, "
              "wait SECONDS, overlap yes|no and lanes yes|no");
     }
   }
@@ -157,6 +163,7 @@ int FixFluidCouple::setmask() {
 // Tickets of all atoms are blank already; LIGGGHTS need not visit them again at the first set-up.
 void FixFluidCouple::post_create() {
   just_created = 0;
+  styles::FixCheckpoint::add(lmp, 0);
 }
 
 void FixFluidCouple::init() {
@@ -215,6 +222,8 @@ void FixFluidCouple::setup(int) {
            std::to_string(update->ntimestep) + ": remove what changes the step between read_restart and the run");
   if (!agreed_ && !resuming_)
     cell_hints_.assign(cell_hints_.size(), link::CellHint{});
+  if (!agreed_)
+    begin_checkpoints();
   pack();
   try {
     const std::uint64_t layout = peer_->agree(terms()).layout;
@@ -252,8 +261,10 @@ void FixFluidCouple::leave_fluid() {
 }
 
 void FixFluidCouple::pre_initial_integrate() {
-  if (resuming_)
-    restore_forces();
+  if (resuming_) {
+    resuming_ = false;
+    mark_ = {};
+  }
   if (overlap_ && !ahead_)
     begin_interval();
   if (countdown_ == 1)
@@ -278,7 +289,7 @@ void FixFluidCouple::end_of_step() {
   meet(interval_ * update->dt);
   forces_->reset_reaction();
   ++coupling_steps_;
-  if (next_reneighbor == update->ntimestep)
+  if (due_ || stop_before)
     write_checkpoint();
   if (stop_before)
     stop_for_signal();
@@ -434,37 +445,25 @@ void FixFluidCouple::meet(double elapsed) {
 
 void FixFluidCouple::grow_arrays(int rows) {
   cell_hints_.resize(rows);
-  if (resuming_)
-    resumed_.resize(rows);
 }
 
 void FixFluidCouple::copy_arrays(int from, int to, int) {
   cell_hints_[to] = cell_hints_[from];
-  if (resuming_)
-    resumed_[to] = resumed_[from];
 }
 
 void FixFluidCouple::set_arrays(int i) {
   cell_hints_[i] = link::CellHint{};
-  if (resuming_)
-    resumed_[i] = Resumed{};
 }
 
 int FixFluidCouple::pack_exchange(int i, double* buffer) {
   buffer[0] = cell_hints_[i].rank;
   buffer[1] = cell_hints_[i].cell;
-  if (!resuming_)
-    return kCellHintDoubles;
-  std::memcpy(buffer + kCellHintDoubles, resumed_[i].values, sizeof resumed_[i].values);
-  return kCellHintDoubles + kForceDoubles;
+  return kCellHintDoubles;
 }
 
 int FixFluidCouple::unpack_exchange(int row, double* buffer) {
   cell_hints_[row] = {static_cast<std::int32_t>(buffer[0]), static_cast<std::int32_t>(buffer[1])};
-  if (!resuming_)
-    return kCellHintDoubles;
-  std::memcpy(resumed_[row].values, buffer + kCellHintDoubles, sizeof resumed_[row].values);
-  return kCellHintDoubles + kForceDoubles;
+  return kCellHintDoubles;
 }
 
 double FixFluidCouple::memory_usage() {

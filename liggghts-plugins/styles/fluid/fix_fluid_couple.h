@@ -7,6 +7,7 @@
 #include "link/load_sums.h"
 #include "link/socket/socket_peer.h"
 #include "styles/bodies/fix_cluster_bodies.h"
+#include "styles/entry/dem_checkpoint.h"
 #include "styles/fluid/fix_fluid_force.h"
 
 #include <mpi.h>
@@ -48,21 +49,19 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   double memory_usage() override;
 
  private:
-  /// Force and torque with which a run goes on, and the cell hint.
-  struct Resumed {
-    double values[6];
-  };
+  enum class Checkpoints { by_clock, counted, off }; ///< off: only when a signal asks to stop
   [[noreturn]] void refuse(const std::string& text);
   void connect();
   void announce_rank_connections() const;
   void read(const std::vector<std::string>& arguments);
   link::DemTerms terms() const;
   void meet(double elapsed);
-  /// Sees to it that the atoms are sorted and listed anew in the step of the next coupling step, if a checkpoint is due
-  /// there: the run that reads it begins with just that.
+  /// Sees to it that the atoms are sorted and listed anew in the step of the next exchange, if a checkpoint may be
+  /// written there: the run that reads it begins with just that.
   void plan_checkpoint();
+  /// Before the two sides agree.
+  void begin_checkpoints();
   void write_checkpoint();
-  void restore_forces();
   void look_for_signals();
   [[noreturn]] void stop_for_signal();
   /// After the link has failed: what this side alone can keep.
@@ -85,13 +84,15 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   bool ahead_ = false;           ///< with overlap: the fluid takes the step of the present interval
   bool agreed_ = false;
   bool met_ = false;
-  int checkpoint_every_ = 0;        ///< coupling steps; 0: only when a signal asks to stop
+  Checkpoints checkpoints_ = Checkpoints::by_clock;
+  styles::CheckpointClock clock_;
+  int checkpoint_every_ = 0;        ///< coupling steps, if counted
+  bool due_ = false;                ///< a checkpoint, at the end of this interval
   std::int64_t coupling_steps_ = 0; ///< since the beginning, also of earlier runs
   int stop_ = 0;                    ///< signal that asks one of the sides to stop
   link::CheckpointMark mark_;       ///< while a checkpoint is written, or until the run that goes on from it has begun
   std::uint64_t layout_ = 0;        ///< for which the cell hint hold
   bool resuming_ = false;           ///< until the first step
-  std::vector<Resumed> resumed_;    ///< per atom, while resuming_
   link::FluidPeer* peer_ = nullptr;
   std::unique_ptr<link::SocketPeer> own_peer_; ///< null with link solver
   FixFluidForce* forces_ = nullptr;

@@ -9,6 +9,8 @@ namespace eccentra::link {
 
 const char* const kCheckpoints = "checkpoints";
 const char* const kDemFile = "dem.restart";
+const char* const kFluidPrefix = "fluid-";
+const char* const kFluidRecord = ".complete";
 
 std::string restart_file_of(const CheckpointMark& mark) {
   return mark.step < 0 ? "none" : std::string(kCheckpoints) + '/' + std::to_string(mark.step) + '/' + kDemFile;
@@ -27,6 +29,7 @@ CheckpointChoice newest_checkpoint(const std::function<bool(const Manifest&, std
     if (dem && fluid_part(*dem, why)) {
       choice.mark = dem->mark;
       choice.restart_file = restart_file_of(choice.mark);
+      choice.notes = dem->notes;
       return choice;
     }
     choice.passed_over.push_back("checkpoint " + std::to_string(step) + " is passed over: " + why);

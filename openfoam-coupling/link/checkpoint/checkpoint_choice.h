@@ -15,11 +15,19 @@ namespace eccentra::link {
 extern const char* const kCheckpoints;
 /// The DEM side's restart file in it.
 extern const char* const kDemFile;
+/// The fluid's half of step N is the folder `kFluidPrefix`N; `kFluidRecord` behind that names the record of a whole
+/// one.
+extern const char* const kFluidPrefix;
+extern const char* const kFluidRecord;
 
 struct CheckpointChoice {
   CheckpointMark mark;                  ///< step -1: none is whole
   std::string restart_file = "none";    ///< for read_restart
+  Notes notes;                          ///< of the DEM side's manifest
   std::vector<std::string> passed_over; ///< one sentence per newer one that is not whole
+
+  /// There are checkpoints, and none of them is whole.
+  bool none_is_whole() const { return mark.step < 0 && !passed_over.empty(); }
 };
 
 /// The DEM side's file of this checkpoint, or "none".

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A table that grows by rows of text on a disk that may be full for a while: no row is lost, none is written in part.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace eccentra::link {
+
+class DurableTable {
+ public:
+  /// Begins a table, or goes on with the rows that are there of first column up to `last` (`goes_on`); a table with
+  /// rows and another heading, or of a run that this one does not continue, is kept beside. Throws Refusal where the
+  /// file cannot be opened.
+  DurableTable(std::string path, std::string heading, bool goes_on, double last);
+  DurableTable(const DurableTable&) = delete;
+  DurableTable& operator=(const DurableTable&) = delete;
+  ~DurableTable();
+
+  /// Adds a row without its end of line. Rows that the disk does not take are kept in memory and tried again.
+  void add(const std::string& row);
+  /// Brings what is there to the disk.
+  void sync();
+  /// Rows in the file.
+  long long rows() const { return rows_; }
+  /// Rows that the disk has not taken yet.
+  const std::vector<std::string>& pending() const { return pending_; }
+  /// Why not.
+  const std::string& problem() const { return problem_; }
+  /// Whatever a user should know: one sentence each. Empties the list.
+  std::vector<std::string> take_messages();
+
+ private:
+  void open();
+  bool write(const std::string& text);
+
+  std::string path_;
+  std::string heading_;
+  int descriptor_ = -1;
+  long long bytes_ = 0; ///< up to the end of the last whole row
+  long long rows_ = 0;
+  std::vector<std::string> pending_;
+  std::vector<std::string> messages_;
+  std::string problem_;
+};
+
+} // namespace eccentra::link
