@@ -3,8 +3,8 @@
 // Implements fix checkpoint/state.
 #include "styles/entry/fix_checkpoint.h"
 
-#include "link/ranks.h"
 #include "link/checkpoint/resume_command.h"
+#include "link/ranks.h"
 #include "link/stop_signal.h"
 #include "styles/entry/random_states.h"
 #include "styles/entry/style_registry.h"

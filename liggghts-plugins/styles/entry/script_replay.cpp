@@ -4,8 +4,8 @@
 #include "styles/entry/script_replay.h"
 
 #include "link/checkpoint/checkpoint_room.h"
-#include "link/ranks.h"
 #include "link/checkpoint/resume_command.h"
+#include "link/ranks.h"
 #include "styles/entry/fix_checkpoint.h"
 #include "styles/entry/style_registry.h"
 

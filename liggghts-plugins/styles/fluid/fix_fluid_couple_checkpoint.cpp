@@ -5,8 +5,8 @@
 
 #include "link/checkpoint/checkpoint_choice.h"
 #include "link/checkpoint/checkpoint_room.h"
-#include "link/ranks.h"
 #include "link/checkpoint/resume_command.h"
+#include "link/ranks.h"
 #include "link/stop_signal.h"
 #include "styles/entry/fix_checkpoint.h"
 #include "styles/entry/script_replay.h"
