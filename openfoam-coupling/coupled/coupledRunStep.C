@@ -29,7 +29,7 @@ constexpr double kGaussianDiameters = 1.0;
 /// One implicit step leaves a cusp that a particle feels while it crosses cells.
 constexpr label kDiffusionSteps = 2;
 /// Share of the largest force below which inertia counts as none at the end of a run-in.
-constexpr scalar kSteady = 0.01;
+constexpr scalar kSteady = 0.1;
 
 } // namespace
 

@@ -205,6 +205,7 @@ void averagedFlow::resume(scalar G) {
 
 void averagedFlow::advance() {
   drive_.update();
+  residualAt_ = -1;
   offerLookups(); // function objects may come during a run
   if (coupled_.valid()) {
     checkSolidVolume();
@@ -462,7 +463,8 @@ tmp<volVectorField> averagedFlow::stressDivergence() const {
 }
 
 scalar averagedFlow::momentumResidual() {
-  if (residualAt_ == mesh_.time().timeIndex()) {
+  // A run-in sets the time back: advance() tells that there is a new step.
+  if (residualAt_ >= 0) {
     return residual_;
   }
   residualAt_ = mesh_.time().timeIndex();
