@@ -28,7 +28,8 @@ void become_server(int pipe_end) {
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
   const std::string number = std::to_string(pipe_end);
-  execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "64x64x24", "-nolisten", "tcp",
+  // -noreset: without it the server starts anew when its last window closes, and refuses the window that comes next.
+  execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-noreset", "-screen", "0", "64x64x24", "-nolisten", "tcp",
          static_cast<char*>(nullptr));
 }
 

@@ -72,7 +72,7 @@ def readers(ours, source):
     found["clump"] = Reader(Grammar("clump").sentences("clump"), lambda text: ours.run(
         ["clusterShape", "file", "a.clump", "--json"], {"a.clump": text}), scenes.GOOD_CLUMP)
     found["stl"] = Reader(any_stl(), lambda data: ours.run(
-        ["clusterShape", "stl", "a.stl", "--spheres", "2", "--resolution", "12", "--json"], {"a.stl": data}), scenes.GOOD_STL)
+        ["clusterShape", "stl", "a.stl", "--spheres", "2", "--missing", "0.9", "--resolution", "12", "--json"], {"a.stl": data}), scenes.GOOD_STL)
     if (ours.bin / "annulusReport").exists():
         found["coupling_csv"] = Reader(Grammar("tables").sentences("coupling"), lambda text: ours.run(
             ["annulusReport", "case", "--no-pictures"], {**scenes.REPORTED, "case/postProcessing/eccentra/coupling.csv": text}), scenes.GOOD_TABLE)
