@@ -3,7 +3,7 @@
 // Per-body data of clusters as a LIGGGHTS fix.
 #include "styles/bodies/fix_cluster_bodies.h"
 
-#include "styles/bodies/incompatible_styles.h"
+#include "styles/bodies/body_checks.h"
 #include "styles/bodies/restart_version.h"
 #include "styles/bodies/unread_properties.h"
 #include "styles/entry/style_registry.h"
@@ -99,10 +99,6 @@ int FixClusterBodies::setmask() {
   return FixConst::PRE_FORCE;
 }
 
-void FixClusterBodies::init() {
-  refuse_incompatible_styles(lmp, *this);
-}
-
 double FixClusterBodies::extra_radius(int i) const {
   return shape_id(i) == plain_sphere ? atom->radius[i] : 0;
 }
@@ -125,6 +121,7 @@ void FixClusterBodies::make_body(int i, int shape_id, double density, const doub
   data_[i][shape_column] = shape_id;
   contact::rotation_matrix(quaternion(i), rotation(i));
   momentum_from_omega(i);
+  new_bodies_ = true;
 }
 
 void FixClusterBodies::momentum_from_omega(int i) {
@@ -156,6 +153,10 @@ void FixClusterBodies::setup_pre_force(int) {
 
 void FixClusterBodies::pre_force(int) {
   send_shapes_ = neighbor->ago == 0;
+  if (send_shapes_ && new_bodies_) {
+    check_new_bodies(lmp, *this);
+    new_bodies_ = false;
+  }
   if (send_shapes_ || !all_round_)
     bring_to_ghosts();
   // Others than nve/cluster may turn bodies when lists are made anew (insertion), but not in between.

@@ -94,7 +94,6 @@ class FixClusterBodies : public LAMMPS_NS::Fix {
   void resume_forces();
 
   int setmask() override;
-  void init() override;
   void post_create() override;
   void setup_pre_force(int vflag) override;
   void pre_force(int vflag) override;
@@ -130,6 +129,7 @@ class FixClusterBodies : public LAMMPS_NS::Fix {
   bool stepped_ = false; ///< this run has made a step
   std::vector<double> rotation_;
   bool send_shapes_ = true; ///< ghosts are new: they need their shape id, too
+  bool new_bodies_ = false; ///< made on this rank since the last check
   bool all_round_ = false;  ///< nobody asks for ghosts' orientation
 };
 

@@ -15,6 +15,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <string>
@@ -33,6 +34,18 @@ struct LineBufferedOutput {
   LineBufferedOutput() { std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ); }
 };
 const LineBufferedOutput line_buffered_output;
+
+/// The guard of a command: its own, or the one of all others, or null.
+eccentra::styles::CommandGuard guard_of(const std::string& command) {
+  eccentra::styles::CommandGuard of_others = nullptr;
+  for (const auto& [name, guard] : eccentra::styles::command_guards()) {
+    if (name == command)
+      return guard;
+    if (name == "*")
+      of_others = guard;
+  }
+  return of_others;
+}
 
 } // namespace
 
@@ -56,15 +69,54 @@ char* Input::one(const char* line) {
   return stock(this, line);
 }
 
+// Every command passes here when its arguments are known: of the script, of the command line and of other programs.
 int Input::execute_command() {
   static const auto stock = next_definition<int (*)(Input*)>("_ZN9LAMMPS_NS5Input15execute_commandEv");
   // A command may read another, which takes the place of its arguments.
   const std::string name = command;
-  const std::vector<std::string> arguments(arg, arg + narg);
-  if (!eccentra::styles::stands_in_for(lmp, name.c_str(), narg, arg) && stock(this) != 0)
-    return -1;
-  eccentra::styles::after(lmp, name, arguments);
-  return 0;
+  const std::vector<std::string> read_arguments(arg, arg + narg);
+  int unknown = 0;
+  const auto act = [&] {
+    if (!eccentra::styles::stands_in_for(lmp, name.c_str(), narg, arg))
+      unknown = stock(this);
+  };
+  if (const eccentra::styles::CommandGuard guard = guard_of(name)) {
+    const auto execute = [&](const std::vector<std::string>& arguments) {
+      // The arguments as they were read stay where LIGGGHTS put them; others live until the command has ended.
+      std::vector<std::string> copies = arguments;
+      std::vector<char*> words;
+      for (std::string& copy : copies)
+        words.push_back(copy.data());
+      char** const read = arg;
+      const int number_read = narg;
+      const bool same = std::equal(arguments.begin(), arguments.end(), arg, arg + narg,
+                                   [](const std::string& a, const char* b) { return a == b; });
+      if (!same) {
+        arg = words.data();
+        narg = static_cast<int>(words.size());
+      }
+      act();
+      if (!same) {
+        arg = read;
+        narg = number_read;
+      }
+    };
+    guard(lmp, name, read_arguments, execute);
+  } else {
+    act();
+  }
+  if (name == "clear") // LIGGGHTS has made its registries anew
+    eccentra::styles::enter(lmp);
+  if (unknown == 0)
+    eccentra::styles::after(lmp, name, read_arguments);
+  return unknown;
+}
+
+void LAMMPS::init() {
+  for (const eccentra::styles::SceneCheck check : eccentra::styles::scene_checks())
+    check(this);
+  static const auto stock = next_definition<void (*)(LAMMPS*)>("_ZN9LAMMPS_NS6LAMMPS4initEv");
+  stock(this);
 }
 
 // Dump styles are a chain of comparisons, not a map: make a stock dump in our dump's place, then exchange the two.

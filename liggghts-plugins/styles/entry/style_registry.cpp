@@ -34,6 +34,13 @@ struct CommandMap {
   using type = std::map<std::string, CommandCreator>* Input::*;
 };
 
+template <class Map> std::vector<std::string> names(const Map& map) {
+  std::vector<std::string> names;
+  for (const auto& entry : map)
+    names.push_back(entry.first);
+  return names;
+}
+
 } // namespace
 
 namespace eccentra::styles {
@@ -45,6 +52,28 @@ template struct PrivateMember<CommandMap, &LAMMPS_NS::Input::command_map>;
 std::vector<StyleRecord>& style_records() {
   static std::vector<StyleRecord> records;
   return records;
+}
+
+std::vector<std::pair<std::string, CommandGuard>>& command_guards() {
+  static std::vector<std::pair<std::string, CommandGuard>> guards;
+  return guards;
+}
+
+std::vector<SceneCheck>& scene_checks() {
+  static std::vector<SceneCheck> checks;
+  return checks;
+}
+
+std::vector<std::string> registered_fixes(LAMMPS_NS::LAMMPS* lmp) {
+  return names(*(lmp->modify->*Published<FixMap>::pointer));
+}
+
+std::vector<std::string> registered_computes(LAMMPS_NS::LAMMPS* lmp) {
+  return names(*(lmp->modify->*Published<ComputeMap>::pointer));
+}
+
+std::vector<std::string> registered_commands(LAMMPS_NS::LAMMPS* lmp) {
+  return names(*(lmp->input->*Published<CommandMap>::pointer));
 }
 
 void enter(LAMMPS_NS::LAMMPS* lmp) {

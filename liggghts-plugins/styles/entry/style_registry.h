@@ -3,6 +3,7 @@
 // Every style of ours announces itself with one static record; enter() hands all records to a LIGGGHTS instance.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -81,6 +82,35 @@ template <class Style> struct RegisterDump : RegisterStyle {
 struct RegisterKeywords : RegisterStyle {
   RegisterKeywords(const char* kind, const char* name, const char* summary) : RegisterStyle({kind, name, summary}) {}
 };
+
+/// Stands in for one command of an input script. `stock` executes the command as LIGGGHTS does; an argument list other
+/// than the one that was read can be given to it.
+using StockCommand = std::function<void(const std::vector<std::string>& arguments)>;
+using CommandGuard = void (*)(LAMMPS_NS::LAMMPS* lmp, const std::string& command,
+                              const std::vector<std::string>& arguments, const StockCommand& stock);
+
+/// The guards by the name of their command; "*" is for every command that has none. Variables have been substituted.
+/// What `if`, `include`, `jump` and `next` execute comes here command by command.
+std::vector<std::pair<std::string, CommandGuard>>& command_guards();
+
+/// Announces a guard when the library is loaded.
+struct RegisterCommandGuard {
+  RegisterCommandGuard(const char* command, CommandGuard guard) { command_guards().emplace_back(command, guard); }
+};
+
+/// Checks of the whole scene at the start of each run (of LAMMPS::init, before any style's init).
+using SceneCheck = void (*)(LAMMPS_NS::LAMMPS* lmp);
+std::vector<SceneCheck>& scene_checks();
+
+/// Announces a check when the library is loaded.
+struct RegisterSceneCheck {
+  explicit RegisterSceneCheck(SceneCheck check) { scene_checks().push_back(check); }
+};
+
+/// The styles that the registries of this LIGGGHTS instance hold, ours among them.
+std::vector<std::string> registered_fixes(LAMMPS_NS::LAMMPS* lmp);
+std::vector<std::string> registered_computes(LAMMPS_NS::LAMMPS* lmp);
+std::vector<std::string> registered_commands(LAMMPS_NS::LAMMPS* lmp);
 
 /// Makes all our styles known to this LIGGGHTS instance. Safe to call more than once. Stops all ranks with one sentence
 /// if the LIGGGHTS that loaded us is not the version that we were built against.

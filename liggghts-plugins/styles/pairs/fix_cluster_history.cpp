@@ -45,13 +45,17 @@ FixClusterHistory::~FixClusterHistory() {
   atom->delete_callback(id, 1);
 }
 
+FixClusterHistory* FixClusterHistory::find(LAMMPS* lmp) {
+  return static_cast<FixClusterHistory*>(lmp->modify->find_fix_style_strict(style_name, 0));
+}
+
 FixClusterHistory& FixClusterHistory::require(LAMMPS* lmp) {
-  if (auto* there = static_cast<FixClusterHistory*>(lmp->modify->find_fix_style_strict(style_name, 0)))
+  if (FixClusterHistory* there = find(lmp))
     return *there;
   std::string arguments[] = {fix_id, "all", style_name};
   char* arg[] = {arguments[0].data(), arguments[1].data(), arguments[2].data()};
   lmp->modify->add_fix(3, arg);
-  return *static_cast<FixClusterHistory*>(lmp->modify->find_fix_style_strict(style_name, 0));
+  return *find(lmp);
 }
 
 void FixClusterHistory::post_create() {

@@ -32,6 +32,8 @@ class FixClusterHistory : public LAMMPS_NS::Fix {
   FixClusterHistory(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
   ~FixClusterHistory() override;
 
+  /// The scene's instance, or null where pair_style gran/cluster has made none.
+  static FixClusterHistory* find(LAMMPS_NS::LAMMPS* lmp);
   static FixClusterHistory& require(LAMMPS_NS::LAMMPS* lmp);
 
   /// Called before touches(i) must be right for every local atom; the pair style fills it in. The argument tells
