@@ -18,6 +18,7 @@
 #include "neighbor.h"
 #include "update.h"
 
+#include <cmath>
 #include <cstring>
 
 namespace eccentra::styles {
@@ -39,19 +40,40 @@ class ByteWriter {
   std::vector<char> data;
 };
 
-/// Takes them out again in the same order.
+/// Takes them out again in the same order, and never more than there are.
 class ByteReader {
  public:
-  explicit ByteReader(const char* data) : data_(data) {}
+  ByteReader(const char* data, std::size_t size) : data_(data), left_(size) {}
+  /// Zero from the first value on that is no longer there; good() tells.
   template <class T> T get() {
-    T value;
-    std::memcpy(&value, data_, sizeof(T));
-    data_ += sizeof(T);
+    T value = {};
+    if (!take(sizeof(T)))
+      return value;
+    std::memcpy(&value, data_ - sizeof(T), sizeof(T));
     return value;
   }
+  /// A count of things of `bytes` each; 0 where there cannot be as many.
+  int count(std::size_t bytes) {
+    const int count = get<int>();
+    good_ = good_ && count >= 0 && static_cast<std::size_t>(count) <= left_ / bytes;
+    return good_ ? count : 0;
+  }
+  bool good() const { return good_; }
+  bool at_end() const { return good_ && left_ == 0; }
 
  private:
+  bool take(std::size_t bytes) {
+    good_ = good_ && bytes <= left_;
+    if (good_) {
+      data_ += bytes;
+      left_ -= bytes;
+    }
+    return good_;
+  }
+
   const char* data_;
+  std::size_t left_;
+  bool good_ = true;
 };
 
 } // namespace
@@ -235,6 +257,9 @@ void FixClusterBodies::unpack_restart(int i, int nth) {
   for (int k = 0; k < nth; ++k)
     m += static_cast<int>(extra[m]);
   const double* record = extra + m + 1;
+  const double shape = record[shape_column];
+  if (extra[m] != size_restart(i) || !(shape >= plain_sphere && shape < shapes_.size()) || shape != std::floor(shape))
+    error->one(FLERR, damaged_restart("clusters").c_str());
   std::copy(record, record + columns, data_[i]);
   contact::rotation_matrix(data_[i], rotation(i));
   if (last_forces_.pending())
@@ -252,9 +277,8 @@ void FixClusterBodies::write_restart(FILE* fp) {
   if (comm->me != 0)
     return;
   ByteWriter bytes;
-  bytes.put(restart_mark);
   // Forces with which a run goes on; before the first run there are none.
-  bytes.put(update->whichflag != 0 || last_forces_.pending());
+  bytes.put(static_cast<char>(update->whichflag != 0 || last_forces_.pending()));
   bytes.put(shapes_.size());
   for (int id = 0; id < shapes_.size(); ++id) {
     const shape::ClusterShape& shape = shapes_[id];
@@ -270,27 +294,42 @@ void FixClusterBodies::write_restart(FILE* fp) {
     for (int k = 0; k < 3; ++k)
       bytes.put(shape.inertia_per_mass()[k]);
   }
-  const int size = static_cast<int>(bytes.data.size());
+  const int head[] = {restart_mark, static_cast<int>(bytes.data.size()), ~static_cast<int>(bytes.data.size())};
+  const int size = static_cast<int>(sizeof head + bytes.data.size());
   fwrite(&size, sizeof(int), 1, fp);
-  fwrite(bytes.data.data(), 1, size, fp);
+  fwrite(head, sizeof(int), 3, fp);
+  fwrite(bytes.data.data(), 1, bytes.data.size(), fp);
 }
 
 void FixClusterBodies::restart(char* buf) {
-  ByteReader bytes(buf);
-  if (const std::string problem = restart_problem(bytes.get<int>(), "clusters"); !problem.empty())
+  int head[3] = {};
+  std::memcpy(head, buf, sizeof(int)); // of another version, there may be no more
+  if (const std::string problem = restart_problem(head[0], "clusters"); !problem.empty())
     error->all(FLERR, problem.c_str());
-  if (bytes.get<bool>())
+  std::memcpy(head, buf, sizeof head);
+  if (head[1] < 0 || head[2] != ~head[1] || !read_shapes(buf + sizeof head, head[1]))
+    error->all(FLERR, damaged_restart("clusters").c_str());
+}
+
+bool FixClusterBodies::read_shapes(const char* data, int size) {
+  ByteReader bytes(data, size);
+  const char within_run = bytes.get<char>();
+  if (within_run != 0 && within_run != 1)
+    return false;
+  if (within_run)
     last_forces_.expect(atom->nmax);
-  const int count = bytes.get<int>();
+  const int count = bytes.count(sizeof(int));
   for (int id = 0; id < count; ++id) {
-    std::string name(bytes.get<int>(), ' ');
+    std::string name(bytes.count(1), ' ');
     for (char& c : name)
       c = bytes.get<char>();
-    std::vector<shape::Sphere> spheres(bytes.get<int>());
+    std::vector<shape::Sphere> spheres(bytes.count(4 * sizeof(double)));
+    bool possible = !spheres.empty();
     for (shape::Sphere& s : spheres) {
       for (int k = 0; k < 3; ++k)
         s.centre[k] = bytes.get<double>();
       s.radius = bytes.get<double>();
+      possible = possible && s.centre.allFinite() && std::isfinite(s.radius) && s.radius > 0;
     }
     shape::MassProperties properties;
     properties.volume = bytes.get<double>();
@@ -299,8 +338,15 @@ void FixClusterBodies::restart(char* buf) {
     properties.inertia_per_mass.setZero();
     for (int k = 0; k < 3; ++k)
       properties.inertia_per_mass(k, k) = bytes.get<double>();
+    const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
+    possible = possible && positive(properties.volume) && positive(properties.surface) &&
+               properties.inertia_per_mass.diagonal().allFinite() &&
+               properties.inertia_per_mass.diagonal().minCoeff() > 0;
+    if (!bytes.good() || !possible)
+      return false;
     shapes_.add(shape::ClusterShape(name, std::move(spheres), properties));
   }
+  return bytes.at_end();
 }
 
 int FixClusterBodies::pack_comm(int n, int* list, double* buf, int, int*) {

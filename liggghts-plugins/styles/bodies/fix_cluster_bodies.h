@@ -121,6 +121,8 @@ class FixClusterBodies : public LAMMPS_NS::Fix {
   /// Of ghosts and, to be safe, of all where atoms are new.
   void update_rotations(int first, int last);
   void bring_to_ghosts();
+  /// False where the bytes of the restart file cannot be what write_restart wrote.
+  bool read_shapes(const char* data, int size);
 
   ShapeTable shapes_;
   InsertionOverlap insertion_{*this};

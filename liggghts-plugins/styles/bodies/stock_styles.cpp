@@ -37,7 +37,7 @@ constexpr const char* one_way = "choose one of the two ways to carry clusters in
 constexpr const char* cfd = "sends a body to the flow solver as its bounding sphere";
 constexpr const char* our_fluid = "use fix fluid/force and fix fluid/couple";
 constexpr const char* sphere_heat = "conducts heat where bounding spheres overlap, even through a gap between bodies";
-constexpr const char* no_heat = "remove it: heat conduction is offered between plain spheres alone";
+constexpr const char* no_heat = "remove it, or run plain spheres in a script of their own";
 constexpr const char* sphere_contacts = "takes overlaps of bounding spheres for contacts";
 constexpr const char* history_output = "use f_cluster_history, the number of contacts, or dump cluster/vtk";
 constexpr const char* sphere_spin = "computes the energy of rotation with the inertia of the bounding sphere";
@@ -56,6 +56,10 @@ constexpr const char* use_run = "use run with fix nve/cluster and fix viscous";
 
 const std::vector<StockStyle> table = {
     // fixes
+    {Kind::fix, "MINIMIZE", acts, internal},
+    {Kind::fix, "READ_RESTART", acts, internal},
+    {Kind::fix, "RESPA", acts, internal},
+    {Kind::fix, "STORE", acts, internal},
     {Kind::fix, "adapt", refused, "changes radius or mass alone, which belong to a body's shape",
      "declare one particletemplate/cluster per size"},
     {Kind::fix, "addforce", acts, centre_force},

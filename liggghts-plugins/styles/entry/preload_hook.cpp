@@ -12,6 +12,7 @@
 #include "input.h"
 #include "lammps.h"
 #include "output.h"
+#include "write_restart.h"
 
 #include <dlfcn.h>
 
@@ -117,6 +118,13 @@ void LAMMPS::init() {
     check(this);
   static const auto stock = next_definition<void (*)(LAMMPS*)>("_ZN9LAMMPS_NS6LAMMPS4initEv");
   stock(this);
+}
+
+void WriteRestart::write(char* file) {
+  static const auto stock = next_definition<void (*)(WriteRestart*, char*)>("_ZN9LAMMPS_NS12WriteRestart5writeEPc");
+  stock(this, file);
+  for (const eccentra::styles::RestartListener listener : eccentra::styles::restart_listeners())
+    listener(lmp, file);
 }
 
 // Dump styles are a chain of comparisons, not a map: make a stock dump in our dump's place, then exchange the two.

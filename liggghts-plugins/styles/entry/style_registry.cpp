@@ -64,6 +64,11 @@ std::vector<SceneCheck>& scene_checks() {
   return checks;
 }
 
+std::vector<RestartListener>& restart_listeners() {
+  static std::vector<RestartListener> listeners;
+  return listeners;
+}
+
 std::vector<std::string> registered_fixes(LAMMPS_NS::LAMMPS* lmp) {
   return names(*(lmp->modify->*Published<FixMap>::pointer));
 }

@@ -107,6 +107,16 @@ struct RegisterSceneCheck {
   explicit RegisterSceneCheck(SceneCheck check) { scene_checks().push_back(check); }
 };
 
+/// Hears of each restart file that LIGGGHTS has written and closed, on all ranks; a '%' in its name stands for `base`
+/// and for the ranks.
+using RestartListener = void (*)(LAMMPS_NS::LAMMPS* lmp, const std::string& file);
+std::vector<RestartListener>& restart_listeners();
+
+/// Announces a listener when the library is loaded.
+struct RegisterRestartListener {
+  explicit RegisterRestartListener(RestartListener listener) { restart_listeners().push_back(listener); }
+};
+
 /// The styles that the registries of this LIGGGHTS instance hold, ours among them.
 std::vector<std::string> registered_fixes(LAMMPS_NS::LAMMPS* lmp);
 std::vector<std::string> registered_computes(LAMMPS_NS::LAMMPS* lmp);

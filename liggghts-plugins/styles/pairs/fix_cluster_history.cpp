@@ -149,6 +149,9 @@ void FixClusterHistory::unpack_restart(int i, int nth) {
   int m = 0;
   for (int k = 0; k < nth; ++k)
     m += static_cast<int>(extra[m]);
+  // The record's length, then the number of touches, which must fill it.
+  if (extra[m] < 2 || extra[m] != 2 + words_per_touch * extra[m + 1])
+    error->one(FLERR, damaged_restart("contacts of clusters").c_str());
   unpack_exchange(i, extra + m + 1);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Restart files of another version are refused in one sentence, wherever in the file the difference shows.
+#include "styles/bodies/restart_seal.h"
 #include "styles/bodies/restart_version.h"
 #include "support/run_program.h"
 
@@ -73,6 +74,7 @@ TEST(RestartVersion, AnotherFormatIsRefused) {
       std::string other = file;
       ++other[numbered ? at : at + 2];
       write_file(folder / "now.restart", other);
+      ASSERT_TRUE(styles::seal_restart_file((folder / "now.restart").string()));
       const ProgramResult refused = run_script(folder, "go_on.in", go_on);
       EXPECT_GT(refused.status, 0);
       const std::string sentence = "the restart file was written by another version of Eccentra (data format " +
