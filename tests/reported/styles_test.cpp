@@ -24,6 +24,7 @@
 
 #include <Eigen/Geometry>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -71,7 +72,7 @@ fix m4 all property/global coefficientFriction peratomtypepair 1 0.5
 timestep 1e-5
 )";
 constexpr const char* contacts = "pair_style gran/cluster model hertz tangential history\npair_coeff * *\n";
-constexpr const char* shape =
+constexpr const char* cubes =
     R"(fix c all particletemplate/cluster 15485863 atom_type 1 density constant 2619 shape cube 8 diameter 6.35e-3 orientation given
 fix d all particledistribution/discrete 32452843 1 c 1.0
 )";
@@ -83,12 +84,16 @@ run 1
 unfix pa
 )";
 
+void write_here(const std::string& name, const std::string& text) {
+  write_file(std::filesystem::current_path() / name, text);
+}
+
 std::string scene_with_one_body() {
-  return std::string(box) + material + contacts + shape + moved + one_body;
+  return std::string(box) + material + contacts + cubes + moved + one_body;
 }
 
 ProgramResult run_script(const std::string& text, std::vector<std::string> more = {}) {
-  write_file("in.script", text);
+  write_here("in.script", text);
   std::vector<std::string> words = {required_environment("ECCENTRA_BIN") + "/eccentra-dem", "-in", "in.script", "-log",
                                     "none"};
   words.insert(words.end(), more.begin(), more.end());
@@ -270,7 +275,7 @@ TEST(Reported, heat_gran) {
                             "fix m5 all property/global thermalConductivity peratomtype 100.\n"
                             "fix m6 all property/global thermalCapacity peratomtype 10.\n"
                             "fix heat all heat/gran initial_temperature 300.\n" +
-                            shape + moved + one_body),
+                            cubes + moved + one_body),
                  {"fix heat", "'heat/gran'", "bounding spheres", "remove it"});
 }
 
@@ -324,7 +329,7 @@ TEST(Reported, set_omega) {
   const double angle = 100 * 10000 * 1e-5;
   EXPECT_NEAR(q[0], std::cos(angle / 2), 1e-9);
   EXPECT_NEAR(q[3], std::sin(angle / 2), 1e-9);
-  session.run("velocity all setAngular 0 0 -100\nrun 10000");
+  session.run("set group all omegaz -100\nrun 10000");
   EXPECT_NEAR(std::abs(session.bodies().quaternion(0)[0]), 1, 1e-8) << "back again";
 }
 
@@ -436,7 +441,7 @@ TEST(Reported, delete_atoms) {
   for (const std::string ranks : {"1", "2"}) {
     std::vector<double> of_way[2];
     for (const bool compress : {false, true}) {
-      write_file("in.script", start + "delete_atoms group lonely compress " + (compress ? "yes" : "no") + "\nrun 8\n");
+      write_here("in.script", start + "delete_atoms group lonely compress " + (compress ? "yes" : "no") + "\nrun 8\n");
       const ProgramResult result =
           run_program({"mpirun", "--oversubscribe", "-np", ranks,
                        required_environment("ECCENTRA_BIN") + "/eccentra-dem", "-in", "in.script", "-log", "none"});
@@ -483,10 +488,10 @@ TEST(Reported, delete_atoms_in_a_bed) {
 }
 
 TEST(Reported, cluster_in_no_integrator) {
-  const std::string still = std::string(box) + material + contacts + shape;
+  const std::string still = std::string(box) + material + contacts + cubes;
   expect_refused(run_script(still + one_body), {"atom 1", "moved by no fix", "nve/cluster"});
   // A group that the body is not in; two ranks say it once.
-  write_file("in.script", scene_with_one_body() + "group none empty\nunfix move\nfix move none nve/cluster\nrun 1\n");
+  write_here("in.script", scene_with_one_body() + "group none empty\nunfix move\nfix move none nve/cluster\nrun 1\n");
   const ProgramResult two =
       run_program({"mpirun", "--oversubscribe", "-np", "2", required_environment("ECCENTRA_BIN") + "/eccentra-dem",
                    "-in", "in.script", "-log", "none"});
@@ -534,19 +539,19 @@ TEST(Reported, damaged_restart_file) {
     const std::size_t at = (whole.size() - 1) * n / 19;
     std::string damaged = whole;
     damaged[at] ^= 0x41;
-    write_file("now.restart", damaged);
+    write_here("now.restart", damaged);
     std::string sentence;
     sentence = styles::seal_problem("now.restart");
     EXPECT_FALSE(sentence.empty()) << "byte " << at << " of " << whole.size();
   }
   for (const std::size_t end : {whole.size() - 1, whole.size() - 32, whole.size() - 100}) {
-    write_file("now.restart", whole.substr(0, end));
+    write_here("now.restart", whole.substr(0, end));
     EXPECT_EQ(styles::seal_problem("now.restart"), "is cut short");
   }
   expect_refused(run_script(go_on), {"read_restart", "'now.restart'", "cut short", "earlier"});
   std::string part = read_all("part0.restart");
   part[part.size() / 2] ^= 1;
-  write_file("part0.restart", part);
+  write_here("part0.restart", part);
   const std::string go_on_parts = std::regex_replace(go_on, std::regex("now"), "part%");
   expect_refused(run_script(go_on_parts), {"read_restart", "'part0.restart'", "damaged"});
 
@@ -559,7 +564,7 @@ TEST(Reported, damaged_restart_file) {
     for (const unsigned value : {0x7fffffffu, 0xffffffffu, 0x00010000u}) {
       std::string damaged = whole;
       std::memcpy(damaged.data() + at, &value, sizeof value);
-      write_file("now.restart", damaged);
+      write_here("now.restart", damaged);
       ASSERT_TRUE(styles::seal_restart_file("now.restart"));
       const ProgramResult result = run_script(go_on);
       EXPECT_EQ(result.signal, 0);
@@ -631,8 +636,9 @@ TEST(Reported, stock_styles_are_all_in_the_table) {
     for (const std::string& name : names)
       EXPECT_NE(styles::find_stock_style(kind, name), nullptr) << styles::kind_name(kind) << " " << name;
     for (const StockStyle& style : styles::stock_styles())
-      if (style.kind == kind)
+      if (style.kind == kind) {
         EXPECT_TRUE(names.count(style.name)) << "LIGGGHTS has no " << styles::kind_name(kind) << " " << style.name;
+      }
   }
 }
 
@@ -660,8 +666,9 @@ TEST(Reported, commands_are_all_in_the_table) {
   for (const std::string& name : live)
     EXPECT_NE(styles::find_stock_style(StockKind::command, name), nullptr) << name;
   for (const StockStyle& style : styles::stock_styles())
-    if (style.kind == StockKind::command)
+    if (style.kind == StockKind::command) {
       EXPECT_TRUE(live.count(style.name)) << "LIGGGHTS has no command " << style.name;
+    }
 }
 
 TEST(Reported, refused_with_bodies_there) {
@@ -679,7 +686,7 @@ TEST(Reported, refused_with_bodies_there) {
 
 TEST(Reported, refused_before_a_run) {
   const IdleStyles idle;
-  const std::string later = std::string(shape) + moved + one_body;
+  const std::string later = std::string(cubes) + moved + "run 0\n"; // no body yet: they will come into the group `all`
   int tried = 0;
   for (const StockStyle* style : refused_styles()) {
     if (style->kind != StockKind::fix && style->kind != StockKind::compute && style->kind != StockKind::dump)
@@ -703,7 +710,7 @@ TEST(Reported, refused_before_a_run) {
 
 TEST(Reported, refused_for_late_bodies) {
   // Bodies that come within a run into a group that something else moves.
-  Session session(std::string(box) + material + contacts + shape +
+  Session session(std::string(box) + material + contacts + cubes +
                   "group late id 999\nfix turn late move rotate 0 0 0 1 0 0 0.4\nfix move all nve/cluster\nrun 0\n");
   const std::string insertion = std::regex_replace(std::string(one_body), std::regex("fix pa all"), "fix pa late");
   EXPECT_EQ(session.refusal(insertion).find("fix turn: 'move' is not offered with clusters"), 0u);
@@ -711,7 +718,7 @@ TEST(Reported, refused_for_late_bodies) {
 
 TEST(Reported, groups_of_plain_spheres) {
   // What acts on the members of its group alone may act on plain spheres beside bodies.
-  Session session(std::string(box) + material + contacts + shape +
+  Session session(std::string(box) + material + contacts + cubes +
                   "create_atoms 1 single 0.02 0.02 0.02 units box\nset atom 1 diameter 2e-3 density 2500\n"
                   "group spheres id 1\ngroup cubes initialize\n"
                   "fix turn spheres move rotate 0 0 0 1 0 0 0.4\nfix move cubes nve/cluster\n" +

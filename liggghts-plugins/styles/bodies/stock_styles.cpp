@@ -362,7 +362,7 @@ const std::vector<StockStyle> table = {
     {Kind::command, "units", acts, setting},
     {Kind::command, "variable", acts,
      "reads what its formula names; group functions take bodies as points of their mass"},
-    {Kind::command, "velocity", acts, "sets velocity and spin; the angular momentum of a body follows at the next run"},
+    {Kind::command, "velocity", acts, "sets the velocity of the centre of mass"},
     {Kind::command, "write_data", refused, lost_orientation,
      "use write_restart, or dump cluster/vtk for other programs"},
     {Kind::command, "write_dump", acts, "makes a dump and writes it once; see the dumps"},
