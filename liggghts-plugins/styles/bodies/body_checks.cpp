@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Radius and mass against shape and density, one integrator for each body, contacts that both bodies keep.
+// Radius and mass against shape and density, one integrator for each body.
 #include "styles/bodies/body_checks.h"
 
 #include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/bodies/incompatible_styles.h"
 #include "styles/entry/style_registry.h"
-#include "styles/pairs/fix_cluster_history.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -15,13 +14,11 @@
 #include "modify.h"
 #include "update.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <limits>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 namespace eccentra::styles {
@@ -35,10 +32,6 @@ std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);
   return text;
-}
-
-std::string body_name(const Atom& atom, const FixClusterBodies& bodies, int i) {
-  return "atom " + std::to_string(atom.tag[i]) + " (cluster '" + bodies.shapes()[bodies.shape_id(i)].name() + "')";
 }
 
 bool differs(double value, double expected) {
@@ -91,65 +84,9 @@ std::string size_problem(const Atom& atom, const FixClusterBodies& bodies, int i
   return {};
 }
 
-/// Contacts are kept by the ids of both bodies: whoever keeps one with a body of this rank must be kept by it.
-class ContactCheck {
- public:
-  ContactCheck(LAMMPS* lmp, FixClusterHistory* history) : history_(history), tag_(lmp->atom->tag) {
-    if (!history_)
-      return;
-    for (int i = 0; i < lmp->atom->nlocal; ++i)
-      if (!history_->touches(i).empty())
-        owner_.emplace(tag_[i], i);
-    for (int i = 0; i < lmp->atom->nlocal; ++i)
-      here_.push_back(tag_[i]);
-    std::sort(here_.begin(), here_.end());
-  }
-
-  std::string problem(int i) const {
-    if (!history_)
-      return {};
-    for (const Touch& touch : history_->touches(i)) {
-      const auto partner = owner_.find(touch.partner);
-      const bool kept = partner != owner_.end() && keeps(partner->second, tag_[i]);
-      if (!kept && std::binary_search(here_.begin(), here_.end(), touch.partner))
-        return "contact with atom '" + std::to_string(touch.partner) +
-               "' is not kept by that atom; expected ids that stay as they are between runs; delete atoms with "
-               "delete_atoms, and renumber them by no other way";
-    }
-    return {};
-  }
-
- private:
-  bool keeps(int i, int tag) const {
-    const std::vector<Touch>& touches = history_->touches(i);
-    return std::any_of(touches.begin(), touches.end(), [tag](const Touch& touch) { return touch.partner == tag; });
-  }
-
-  FixClusterHistory* history_;
-  const int* tag_;
-  std::unordered_map<int, int> owner_;
-  std::vector<int> here_;
-};
-
-/// The body of lowest id that has a problem, on any rank, and the sentence; stops all ranks. Collective.
-void stop_at_lowest(LAMMPS* lmp, int tag, std::string sentence) {
-  struct {
-    int tag, rank;
-  } here = {tag, lmp->comm->me}, lowest = {};
-  MPI_Allreduce(&here, &lowest, 1, MPI_2INT, MPI_MINLOC, lmp->world);
-  if (lowest.tag == std::numeric_limits<int>::max())
-    return;
-  int size = static_cast<int>(sentence.size());
-  MPI_Bcast(&size, 1, MPI_INT, lowest.rank, lmp->world);
-  sentence.resize(size);
-  MPI_Bcast(sentence.data(), size, MPI_CHAR, lowest.rank, lmp->world);
-  lmp->error->all(FLERR, sentence.c_str());
-}
-
 void check_bodies(LAMMPS* lmp, const FixClusterBodies& bodies) {
   const Atom& atom = *lmp->atom;
   const Motion motion(*lmp->modify);
-  const ContactCheck contacts(lmp, FixClusterHistory::find(lmp));
   const bool moves = lmp->update->nsteps > 0;
   int lowest = std::numeric_limits<int>::max();
   std::string sentence;
@@ -159,8 +96,6 @@ void check_bodies(LAMMPS* lmp, const FixClusterBodies& bodies) {
     std::string problem = size_problem(atom, bodies, i);
     if (problem.empty())
       problem = motion.problem(atom.mask[i], moves);
-    if (problem.empty())
-      problem = contacts.problem(i);
     if (problem.empty())
       continue;
     lowest = atom.tag[i];
@@ -190,6 +125,24 @@ void check_scene(LAMMPS* lmp) {
 const styles::RegisterSceneCheck registered(&check_scene);
 
 } // namespace
+
+std::string body_name(const Atom& atom, const FixClusterBodies& bodies, int i) {
+  return "atom " + std::to_string(atom.tag[i]) + " (cluster '" + bodies.shapes()[bodies.shape_id(i)].name() + "')";
+}
+
+void stop_at_lowest(LAMMPS* lmp, int tag, std::string sentence) {
+  struct {
+    int tag, rank;
+  } here = {tag, lmp->comm->me}, lowest = {};
+  MPI_Allreduce(&here, &lowest, 1, MPI_2INT, MPI_MINLOC, lmp->world);
+  if (lowest.tag == std::numeric_limits<int>::max())
+    return;
+  int size = static_cast<int>(sentence.size());
+  MPI_Bcast(&size, 1, MPI_INT, lowest.rank, lmp->world);
+  sentence.resize(size);
+  MPI_Bcast(sentence.data(), size, MPI_CHAR, lowest.rank, lmp->world);
+  lmp->error->all(FLERR, sentence.c_str());
+}
 
 void check_new_bodies(LAMMPS* lmp, FixClusterBodies& bodies) {
   const Atom& atom = *lmp->atom;
