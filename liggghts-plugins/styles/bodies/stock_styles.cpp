@@ -39,7 +39,8 @@ constexpr const char* our_fluid = "use fix fluid/force and fix fluid/couple";
 constexpr const char* sphere_heat = "conducts heat where bounding spheres overlap, even through a gap between bodies";
 constexpr const char* no_heat = "remove it, or run plain spheres in a script of their own";
 constexpr const char* sphere_contacts = "takes overlaps of bounding spheres for contacts";
-constexpr const char* history_output = "use f_cluster_history, the number of contacts, or dump cluster/vtk";
+constexpr const char* contact_count = "use compute contact/cluster/atom, the contacts of each body";
+constexpr const char* contact_list = "use compute contact/cluster/local, the contacts one by one";
 constexpr const char* sphere_spin = "computes the energy of rotation with the inertia of the bounding sphere";
 constexpr const char* our_spin = "use the output f_ID[2] of fix nve/cluster, the energy of rotation";
 constexpr const char* sphere_volume = "takes the volume of the bounding sphere for that of the body";
@@ -65,10 +66,9 @@ const std::vector<StockStyle> table = {
     {Kind::fix, "addforce", acts, centre_force},
     {Kind::fix, "ave/atom", acts, values},
     {Kind::fix, "ave/correlate", acts, values},
-    {Kind::fix, "ave/euler", refused, "fills its cells with the volumes of bounding spheres",
-     "use fix ave/spatial with density/mass, or the fluid fraction of a coupled run"},
-    {Kind::fix, "ave/euler/stress", refused, "fills its cells with the volumes and contacts of bounding spheres",
-     "use compute pressure"},
+    {Kind::fix, "ave/euler", made_right, "would fill its cells with bounding spheres; a body counts with its volume"},
+    {Kind::fix, "ave/euler/stress", made_right,
+     "would fill its cells with bounding spheres; a body counts with its volume"},
     {Kind::fix, "ave/histo", acts, values},
     {Kind::fix, "ave/spatial", acts, centre_mass},
     {Kind::fix, "ave/time", acts, values},
@@ -82,8 +82,8 @@ const std::vector<StockStyle> table = {
     {Kind::fix, "concave", refused, multisphere, one_way},
     {Kind::fix, "contacthistory", acts, internal},
     {Kind::fix, "contacthistory/mesh", acts, internal},
-    {Kind::fix, "contactproperty/atom", refused, sphere_contacts, history_output},
-    {Kind::fix, "contactproperty/atom/wall", refused, sphere_contacts, history_output},
+    {Kind::fix, "contactproperty/atom", refused, sphere_contacts, contact_count},
+    {Kind::fix, "contactproperty/atom/wall", refused, sphere_contacts, contact_count},
     {Kind::fix, "continuum/weighted", refused, "spreads stresses of contacts between bounding spheres",
      "use compute pressure or compute stress/atom"},
     {Kind::fix, "couple/cfd", refused, cfd, our_fluid},
@@ -129,7 +129,7 @@ const std::vector<StockStyle> table = {
     {Kind::fix, "move/mesh", acts, geometry},
     {Kind::fix, "move/mesh/file", acts, geometry},
     {Kind::fix, "move/mesh/gran", acts, geometry},
-    {Kind::fix, "multicontact/halfspace", refused, sphere_contacts, history_output},
+    {Kind::fix, "multicontact/halfspace", refused, sphere_contacts, contact_count},
     {Kind::fix, "multisphere", refused, multisphere, one_way},
     {Kind::fix, "multisphere/break", refused, multisphere, one_way},
     {Kind::fix, "multisphere/nointegration", refused, multisphere, one_way},
@@ -187,8 +187,8 @@ const std::vector<StockStyle> table = {
     {Kind::compute, "cna/atom", acts, centre},
     {Kind::compute, "com", acts, centre_mass},
     {Kind::compute, "com/molecule", acts, molecules},
-    {Kind::compute, "contact/atom", refused, sphere_contacts, history_output},
-    {Kind::compute, "contact/atom/gran", refused, sphere_contacts, history_output},
+    {Kind::compute, "contact/atom", refused, sphere_contacts, contact_count},
+    {Kind::compute, "contact/atom/gran", refused, sphere_contacts, contact_count},
     {Kind::compute, "coord/atom", acts, centre},
     {Kind::compute, "displace/atom", acts, centre},
     {Kind::compute, "erotate", refused, sphere_spin, our_spin},
@@ -208,7 +208,7 @@ const std::vector<StockStyle> table = {
     {Kind::compute, "multisphere", refused, multisphere, one_way},
     {Kind::compute, "multisphere/single", refused, multisphere, one_way},
     {Kind::compute, "nparticles/tracer/region", acts, centre_mass},
-    {Kind::compute, "pair/gran/local", refused, sphere_contacts, history_output},
+    {Kind::compute, "pair/gran/local", refused, sphere_contacts, contact_list},
     {Kind::compute, "pe", acts, "sums energies of pairs, which contacts do not have"},
     {Kind::compute, "pe/atom", acts, "sums energies of pairs, which contacts do not have"},
     {Kind::compute, "pressure", acts, "sums force times distance of centres over pairs of bodies"},
@@ -224,7 +224,7 @@ const std::vector<StockStyle> table = {
     {Kind::compute, "slice", acts, values},
     {Kind::compute, "stress/atom", acts, "sums force times distance of centres over pairs of bodies"},
     {Kind::compute, "temp", acts, centre_mass},
-    {Kind::compute, "wall/gran/local", refused, sphere_contacts, history_output},
+    {Kind::compute, "wall/gran/local", refused, sphere_contacts, contact_list},
 
     // pair styles
     {Kind::pair_style, "bubble", refused, sphere_pairs, our_pairs},
@@ -245,11 +245,10 @@ const std::vector<StockStyle> table = {
     {Kind::dump, "custom/vtm", acts,
      "writes the values that the script names; radius and diameter are those of the bounding sphere"},
     {Kind::dump, "decomposition/vtk", acts, geometry},
-    {Kind::dump, "euler/vtk", refused, "writes the cells of fix ave/euler, which bounding spheres fill",
-     "use fix ave/spatial with density/mass"},
+    {Kind::dump, "euler/vtk", acts, "writes the cells of fix ave/euler"},
     {Kind::dump, "image", refused, "draws a body as a ball", "use dump cluster/vtk"},
     {Kind::dump, "local", acts, values},
-    {Kind::dump, "local/gran/vtk", refused, sphere_contacts, history_output},
+    {Kind::dump, "local/gran/vtk", refused, sphere_contacts, contact_list},
     {Kind::dump, "mesh/gran/VTK", acts, geometry},
     {Kind::dump, "mesh/stl", acts, geometry},
     {Kind::dump, "mesh/vtk", acts, geometry},
