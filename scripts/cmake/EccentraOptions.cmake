@@ -11,7 +11,13 @@ set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
 include(GNUInstallDirs)
-set(CMAKE_INSTALL_RPATH "$ORIGIN:$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+# One RUNPATH for the build tree and for what is installed: CMake pads the one that it would change while installing with
+# colons, and the loader reads an empty entry as the working folder. build/lib is found from bin, lib and tests alike.
+set(CMAKE_BUILD_WITH_INSTALL_RPATH ON)
+set(CMAKE_INSTALL_RPATH "$ORIGIN" "$ORIGIN/../lib")
+if(NOT CMAKE_INSTALL_LIBDIR STREQUAL "lib")
+  list(APPEND CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+endif()
 
 add_library(eccentra_options INTERFACE)
 # maybe-uninitialized: g++ 12 finds it in the hosts' own headers, where we inline them, hundreds of times and in vain.
