@@ -397,10 +397,6 @@ TEST(Reported, adversary_12_a_resumed_run_that_inserts) {
   expect_heap_goes_on(1);
 }
 
-TEST(Reported, adversary_12_a_resumed_run_that_inserts_on_two_ranks) {
-  expect_heap_goes_on(2);
-}
-
 TEST(Reported, resume_heap_alone) {
   // A signal, at a step that no checkpoint was planned for; and a forgotten word.
   const fs::path whole = fresh_folder("whole"), parts = fresh_folder("parts");

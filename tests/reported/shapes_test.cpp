@@ -613,10 +613,17 @@ TEST(Reported, clump_read_by_stock) {
   write_stl("box.stl", box(Vector3d(1, .5, .5), Vector3d::Zero()));
   ASSERT_EQ(shell(tool("clusterShape") + " stl box.stl --spheres 5 --scale 1e-3 --mass solid -o box.clump").status, 0);
   ASSERT_NE(text_of("box.clump").find("\n#: inertia "), std::string::npos);
-  const ProgramResult run =
-      dem("sphere 1 diameter 1e-3",
-          "fix s all particletemplate/multisphere 15485863 atom_type 1 density constant 2500 "
-          "nspheres 5 ntry 100000 spheres file box.clump scale 1.0 type 1\nprint \"stock took it\"\n");
+  std::ofstream("stock.in") << R"(atom_style granular
+boundary f f f
+newton off
+units si
+region box block -0.05 0.05 -0.05 0.05 -0.05 0.05 units box
+create_box 1 box
+fix s all particletemplate/multisphere 15485863 atom_type 1 density constant 2500 nspheres 5 ntry 100000 &
+  spheres file box.clump scale 1.0 type 1
+print "stock took it"
+)";
+  const ProgramResult run = run_program({"liggghts", "-in", "stock.in"});
   EXPECT_EQ(run.status, 0) << run.output;
   expect_parts(run.output, {"\nstock took it"});
 }

@@ -24,6 +24,8 @@ def turn_job(chosen, pressure, viscosity, turn):
         foam.set_up(case, "solver-cost", mesh=mesh, pressure=solver, settings={"runViscosity": viscosity, "runEnd": 0})
         run([chosen.build / "bin" / "annulusMesh"], case, folder / "annulusMesh.txt")
         for name, program in solvers.items():
+            if name != "pimpleFoam":  # fvOptions drives stock's flow alone; annulusFoam refuses it
+                (case / "constant" / "fvOptions").unlink(missing_ok=True)
             times = []
             for steps in (SHORT, SHORT + chosen.steps):
                 foam.put(case / "settings", runViscosity=viscosity, runEnd=f"{STEP * steps:g}")

@@ -57,7 +57,7 @@ TEST(WallArguments, BadLinesAreNamed) {
   expect_names(kModel + "rolling_friction epsdd primitive type 1 xplane 0", "'epsdd'");
   expect_names(kModel + "contacts sharde primitive type 1 xplane 0", "'sharde'");
   expect_names(kModel + "primitive type 1 xplane 0 turn 5", "'turn'");
-  expect_names(kModel + "primitive type 1 xplane 0 shear x 5", "stock calls shear");
+  expect_names(kModel + "primitive type 1 xplane 0 shear x 5", "rotate OMEGA");
   expect_names(kModel + "rolling_friction shape form epsdd primitive type 1 xplane 0", "'epsdd'");
   expect_names(kModel + "damping none primitive type 1 xplane 0", "'none'");
   expect_names(kModel + "primitive type 1 xplane 0 mesh n_meshes 1 meshes a", "one wall per fix");
