@@ -64,8 +64,8 @@ bool holds_clusters_of_this_format(const std::string& text) {
          text.find(std::string(mark, sizeof mark)) != std::string::npos;
 }
 
-std::string with(std::string name, char placeholder, const std::string& text) {
-  const std::size_t at = name.find(placeholder);
+std::string with(std::string name, char wildcard, const std::string& text) {
+  const std::size_t at = name.find(wildcard);
   return at == std::string::npos ? name : name.replace(at, 1, text);
 }
 
