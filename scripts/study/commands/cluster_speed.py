@@ -205,7 +205,7 @@ class Speed:
 
 def main():
     parser = options.Parser(
-        "cluster-speed", "Milliseconds of processor time per body and 1000 steps, for ours and for stock, their ratio and the bar set for it; contacts per "
+        "cluster-speed", "Milliseconds of processor time per body and 1000 steps, for ours and for stock, their ratio and the required one; contacts per "
         "body, nanoseconds per contact and the share of each part of the step for ours; then C64 and a one-sphere cluster in units of a stock sphere, plain "
         "spheres with and without the library, and memory per body. What is compared takes turns; times are medians of the turns, ratios the median (least "
         "to largest) of the turns' ratios. settled: a bed at rest on 50 x 50 mm, periodic. drum: a hole of R 63.5 mm at 50 rpm. collapsing: a column of "
@@ -234,8 +234,8 @@ def main():
 
     chosen = parser.settle(("eccentra-dem",), check)
     speed, rows, page = Speed(chosen), [], []
-    header = ["scene", "shape", "ours_ms_per_body_per_1000_steps", "stock", "times_as_fast", "least", "largest", "bar", "contacts_per_body", "ns_per_contact",
-              "pairs_%", "walls_%", "motion_%", "lists_%", "rest_%"]
+    header = ["scene", "shape", "ours_ms_per_body_per_1000_steps", "stock", "times_as_fast", "least", "largest", "required", "contacts_per_body",
+              "ns_per_contact", "pairs_%", "walls_%", "motion_%", "lists_%", "rest_%"]
     for scene in chosen.scenes:
         number = chosen.bodies * (2 if scene in COLUMN else 1)
         for pair in chosen.shapes:
@@ -249,7 +249,7 @@ def main():
                              BARS[scene].get(pair, "-"), f"{contacts:.1f}", f"{1000 * ours / contacts if contacts else 0:.0f}",
                              *(f"{parts[name]:.0f}" for name in ("pairs", "walls", "motion", "lists", "rest"))])
     if rows:
-        shown = ["scene", "shape", "ours ms", "stock ms", "ratio", "least", "largest", "bar", "contacts", "ns each", "pairs %", "walls",
+        shown = ["scene", "shape", "ours ms", "stock ms", "ratio", "least", "largest", "required", "contacts", "ns each", "pairs %", "walls",
                  "motion", "lists", "rest"]
         tables.write_csv(chosen.out / "cluster-speed.csv", header, rows)
         print(tables.text(shown, rows))
@@ -262,21 +262,21 @@ def main():
     told = speed.compare(*sides)
     if told:
         if len(sides) > 3:
-            said.append(f"plain spheres: the library makes the run {told.words(3, 0)} times as fast (bar 1.0)")
-        said.append(f"settled bed, in units of a stock sphere ({told.median(0):.3f}): one-sphere cluster {told.words(1, 0)} (bar 1.2), "
-                    f"C64 {told.words(2, 0)} (bar 3)")
+            said.append(f"plain spheres: the library makes the run {told.words(3, 0)} times as fast (required 1.0)")
+        said.append(f"settled bed, in units of a stock sphere ({told.median(0):.3f}): one-sphere cluster {told.words(1, 0)} (required 1.2), "
+                    f"C64 {told.words(2, 0)} (required 3)")
     # What a body more takes: differences of large runs, as a process alone varies by some 200 kB.
     many = 4 * chosen.bodies
     least, most = speed.memory(64, chosen.bodies), speed.memory(64, many)
     if most:
-        said.append(f"memory per C64 body: {(most - least) / (many - chosen.bodies):.1f} kB (bar 4)")
+        said.append(f"memory per C64 body: {(most - least) / (many - chosen.bodies):.1f} kB (required 4)")
     if chosen.portable:
         told = speed.compare((speed.dem, one("cluster", 64)), (chosen.portable / "bin" / "eccentra-dem", one("cluster", 64)))
-        said += [f"portable build: C64 takes {told.words(1, 0)} times as long (bar 1.6)"] if told else []
+        said += [f"portable build: C64 takes {told.words(1, 0)} times as long (required 1.6)"] if told else []
     if chosen.ranks > 1:
         crowd = (speed.dem, one("cluster", 64, number=many))
         told = speed.compare(crowd, crowd, ranks=[1, chosen.ranks])
-        said += [f"{chosen.ranks} ranks: {told.words(0, 1)} times as fast as one, wall clock (bar 1.8 for two)"] if told else []
+        said += [f"{chosen.ranks} ranks: {told.words(0, 1)} times as fast as one, wall clock (required 1.8 for two)"] if told else []
     if chosen.plan:
         return 0
     print("\n".join(said))

@@ -97,7 +97,7 @@ def main():
             dem = step["dem"] / interval
             shares.append([f"link {link}", dem * 1e3, step["fluid"] * 1e3, step["exchange"] * 1e3, step["link"] * 1e3, step["link"] / dem,
                            step["link"] / step["fluid"], 100 * step["link"] / sum(step.values())])
-        page.append(tables.publish(chosen, "exchange", "Exchange", ["30,000 particles there and back", "ms", "bar", "DEM steps", "fluid steps"], rows))
+        page.append(tables.publish(chosen, "exchange", "Exchange", ["30,000 particles there and back", "ms", "required", "DEM steps", "fluid steps"], rows))
         page.append(tables.publish(chosen, "coupled", "Coupled runs",
                                    [f"coupled run of {crowd['count']} spheres", "DEM step ms", "fluid step ms", "exchange ms", "link ms",
                                     "link in DEM steps", "in fluid steps", "share %"], shares))
@@ -108,5 +108,5 @@ def main():
             ratios = sorted(a / b for a, b in zip(one, two))
             rows.append([name, turns, statistics.median(one), statistics.median(two), statistics.median(ratios), ratios[0], ratios[-1], RANKS_BAR])
         page.append(tables.publish(chosen, "ranks", "Ranks",
-                                   ["section", "turns", "one rank s", "two ranks s", "times as fast", "least", "largest", "bar"], rows))
+                                   ["section", "turns", "one rank s", "two ranks s", "times as fast", "least", "largest", "required"], rows))
     return tables.finish(chosen, page, [], "one run at a time, wall clock")
