@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
+#include <vector>
 
 namespace eccentra::closures {
 
@@ -21,7 +21,7 @@ constexpr double kDragFractionFloor = 0.3;
 template <class Stress, class Law> class DragEffect : public Effect {
  public:
   DragEffect(const char* name, const Rheology& fluid)
-      : name_("drag " + std::string(name)), stress_(fluid), density_(fluid.density) {}
+      : name_("drag " + std::string(name)), fluid_(fluid), stress_(fluid) {}
 
   const char* name() const override { return name_.c_str(); }
   const char* slot() const override { return "drag"; }
@@ -30,7 +30,7 @@ template <class Stress, class Law> class DragEffect : public Effect {
     shapes_ = &shapes;
     laws_.clear();
     for (int kind = 0; kind < shapes.kinds(); ++kind)
-      laws_.emplace_back(shapes.factors(kind));
+      laws_.push_back(make_law<Law>(shapes.factors(kind), fluid_));
   }
 
   std::vector<Validity> validity() const override { return {{kReynolds, Law::kLowestRe, Law::kHighestRe}}; }
@@ -38,7 +38,7 @@ template <class Stress, class Law> class DragEffect : public Effect {
     double sum[3] = {0.0, 0.0, 0.0};
     // Copies: a force that is written could be one of the members, as far as the compiler knows.
     const Stress stress = stress_;
-    const double density = density_;
+    const double density = fluid_.density;
     const Law* laws = laws_.data();
     for (int i = 0; i < half_step.count; ++i) {
       if (!(half_step.mask[i] & half_step.group))
@@ -61,7 +61,7 @@ template <class Stress, class Law> class DragEffect : public Effect {
       if constexpr (Law::kOriented)
         place.crosswise = shapes_->crosswise_sphericity(i, free);
       const auto law = laws[half_step.kind[i]].in(place);
-      const Resistance<Stress, std::decay_t<decltype(law)>> drag{stress, law, kPi / 8.0 * d * d, 1.0 / d, density};
+      const auto drag = drag_resistance<Law>(stress, law, d, density, place.fraction);
       const ImplicitSlip step = implicit_slip(drag, free_speed, compliance, std::sqrt(slip2));
       // What is exchanged is the force that was really given, so the fluid receives exactly what the particle lost. Its
       // linearisation is the answer of the stepped particle to the fluid's velocity: at most m/interval, also at rest.
@@ -81,8 +81,8 @@ template <class Stress, class Law> class DragEffect : public Effect {
 
  private:
   std::string name_;
+  Rheology fluid_;
   Stress stress_;
-  double density_;
   std::vector<Law> laws_;
   const ShapeCatalogue* shapes_ = nullptr;
 };

@@ -6,8 +6,7 @@
 #include "base/option_reader.h"
 #include "base/refusal.h"
 #include "closures/body_forces.h"
-#include "closures/drag_effect.h"
-#include "closures/drag_laws.h"
+#include "closures/drag_table.h"
 #include "closures/lift_effects.h"
 #include "closures/rotational_drag.h"
 
@@ -19,32 +18,6 @@ using base::OptionReader;
 using base::refuse;
 
 namespace {
-
-using DragMaker = std::unique_ptr<Effect> (*)(const char*, const Rheology&);
-
-template <class Law> std::unique_ptr<Effect> make_drag(const char* name, const Rheology& fluid) {
-  if (fluid.newtonian())
-    return std::make_unique<DragEffect<NewtonianStress, Law>>(name, fluid);
-  return std::make_unique<DragEffect<HerschelBulkleyStress, Law>>(name, fluid);
-}
-
-struct DragEntry {
-  const char* name;
-  DragMaker make;
-  DragMaker make_void_reynolds; ///< with alpha Re in place of Re
-};
-
-/// Every drag law that a script can name. wen_yu, gidaspow and di_felice define their own use of the fraction.
-constexpr DragEntry kDragLaws[] = {
-    {"chien", &make_drag<Suspended<Chien>>, &make_drag<Suspended<Chien, true>>},
-    {"schiller_naumann", &make_drag<Suspended<SchillerNaumann>>, &make_drag<Suspended<SchillerNaumann, true>>},
-    {"haider_levenspiel", &make_drag<Suspended<HaiderLevenspiel>>, &make_drag<Suspended<HaiderLevenspiel, true>>},
-    {"ganser", &make_drag<Suspended<Ganser>>, &make_drag<Suspended<Ganser, true>>},
-    {"holzer_sommerfeld", &make_drag<Suspended<HoelzerSommerfeld>>, &make_drag<Suspended<HoelzerSommerfeld, true>>},
-    {"wen_yu", &make_drag<Suspended<SchillerNaumann, true>>, &make_drag<Suspended<SchillerNaumann, true>>},
-    {"gidaspow", &make_drag<Gidaspow>, &make_drag<Gidaspow>},
-    {"di_felice", &make_drag<DiFelice>, &make_drag<DiFelice>},
-};
 
 /// The drag that a screen weighs where the script names none: the paper's.
 constexpr const char* kScreenedDrag = "chien";
@@ -74,21 +47,24 @@ void read_sphericity(OptionReader& reader, FluidOptions& options, int atom_types
     refuse("keyword 'sphericity' has {} values; expected one, or one for each of the {} atom types", count, atom_types);
 }
 
-const DragEntry* find_drag(const std::string& name) {
-  for (const DragEntry& entry : kDragLaws)
-    if (name == entry.name)
-      return &entry;
-  return nullptr;
+/// What is said of the stress scale X around a particle, once the drag law and the rheology are known.
+void weigh_stress(FluidOptions& options, const std::set<std::string>& said) {
+  Rheology& fluid = options.rheology;
+  const DragLaw* law = find_drag_law(options.drag);
+  for (const char* word : {"power_law_factor", "yield_weight"})
+    if (!law && said.count(word))
+      refuse("keyword '{}' weighs the stress scale of a drag law, but there is none; add drag NAME", word);
+  if (options.power_law_factor) {
+    if (options.drag == "qkqy")
+      refuse("keyword 'power_law_factor': 'renaud' is not for drag qkqy, whose coefficients depend on N already; "
+             "expected none, or another drag law");
+    fluid.viscous_weight = power_law_factor(fluid.index);
+  }
+  if (law)
+    fluid.yield_weight = options.beris_yield ? beris_yield_weight(*law, fluid) : law->own_yield_weight;
 }
 
 } // namespace
-
-std::string drag_law_names() {
-  std::string names;
-  for (const DragEntry& entry : kDragLaws)
-    names += std::string(entry.name) + "|";
-  return names + "none";
-}
 
 FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int atom_types) {
   FluidOptions options;
@@ -102,11 +78,15 @@ FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int a
     } else if (keyword == "density") {
       options.rheology.density = reader.positive("the fluid's density RHO [kg/m3]");
     } else if (keyword == "drag") {
-      options.drag = reader.value(drag_law_names());
-      if (options.drag != "none" && !find_drag(options.drag))
-        refuse("keyword 'drag': '{}' is unknown; expected {}", options.drag, drag_law_names());
+      options.drag = reader.value(drag_law_names() + "|none");
+      if (options.drag != "none" && !find_drag_law(options.drag))
+        refuse("keyword 'drag': '{}' is unknown; expected {}|none", options.drag, drag_law_names());
     } else if (keyword == "void_reynolds") {
       options.void_reynolds = reader.on_off();
+    } else if (keyword == "power_law_factor") {
+      options.power_law_factor = reader.choice({"renaud", "none"}) != "none";
+    } else if (keyword == "yield_weight") {
+      options.beris_yield = reader.choice({"beris", "own"}) == "beris";
     } else if (keyword == "shear_lift") {
       options.shear_lift = reader.choice({"saffman_mei", "none"}) != "none";
     } else if (keyword == "rotational_lift") {
@@ -128,8 +108,9 @@ FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int a
     } else if (keyword == "sphericity") {
       read_sphericity(reader, options, atom_types);
     } else {
-      reader.unknown("rheology, density, drag, void_reynolds, shear_lift, rotational_lift, drag_torque, "
-                     "pressure_gradient, viscous_stress, buoyancy, sphericity, screen, screen_steps, screen_recheck");
+      reader.unknown("rheology, density, drag, void_reynolds, power_law_factor, yield_weight, shear_lift, "
+                     "rotational_lift, drag_torque, pressure_gradient, viscous_stress, buoyancy, sphericity, screen, "
+                     "screen_steps, screen_recheck");
     }
   }
   if (options.rheology.consistency == 0.0)
@@ -140,6 +121,7 @@ FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int a
     for (const char* word : {"screen_steps", "screen_recheck"})
       if (said.count(word))
         refuse("keyword '{}' says how to screen, but 'screen' is missing; add screen TOLERANCE", word);
+    weigh_stress(options, said);
     return options;
   }
   // A screen judges every effect that the script has not itself decided on.
@@ -153,6 +135,7 @@ FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int a
   for (const auto& [word, on] : optional)
     if (!said.count(word))
       *on = true;
+  weigh_stress(options, said);
   return options;
 }
 
@@ -169,8 +152,8 @@ EffectList make_effects(const FluidOptions& options) {
     effects.push_back(std::make_unique<ShearLift>(fluid));
   if (options.rotational_lift)
     effects.push_back(std::make_unique<RotationalLift>(fluid));
-  if (const DragEntry* entry = find_drag(options.drag))
-    effects.push_back((options.void_reynolds ? entry->make_void_reynolds : entry->make)(entry->name, fluid));
+  if (const DragLaw* law = find_drag_law(options.drag))
+    effects.push_back((options.void_reynolds ? law->make_void_reynolds : law->make)(law->name, fluid));
   if (options.drag_torque && fluid.newtonian())
     effects.push_back(std::make_unique<RotationalDrag<NewtonianStress>>(fluid));
   else if (options.drag_torque)

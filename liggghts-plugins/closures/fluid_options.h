@@ -15,7 +15,9 @@ namespace eccentra::closures {
 struct FluidOptions {
   Rheology rheology;
   std::string drag = "none";
-  bool void_reynolds = false; ///< alpha Re in place of Re in a single-particle drag law
+  bool void_reynolds = false;    ///< alpha Re in place of Re in a single-particle drag law
+  bool power_law_factor = false; ///< x = X(n) in the stress scale
+  bool beris_yield = false;      ///< w by which a sphere rests where Beris et al. (1985) say
   bool shear_lift = false;
   bool rotational_lift = false;
   bool drag_torque = false;
@@ -32,8 +34,5 @@ FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int a
 
 /// The effects that are on, in the order in which they act: volume forces, lifts, drag (implicit against all others).
 EffectList make_effects(const FluidOptions& options);
-
-/// "chien|..." for messages.
-std::string drag_law_names();
 
 } // namespace eccentra::closures

@@ -17,12 +17,25 @@ inline double sphere_volume(double radius) {
 /// Weight of the Bingham number in eq (23) (Ansley & Smith 1967).
 constexpr double kAnsleySmith = 7.0 * kPi / 24.0;
 
-/// Herschel-Bulkley parameters: tau = yield_stress + consistency * rate^index. SI.
+/// A sphere rests where tau0 >= this times (rho_p - rho_f) g d: Beris et al. (1985), Y = 3 tau0/((rho_p - rho_f) g d) =
+/// 0.143, computed for creep in a Bingham fluid without slip at the surface.
+constexpr double kBerisYield = 0.143 / 3.0;
+
+/// Factor by which power-law fluid of index n resists a creeping sphere more than k (U/d)^n says, C_D = 24 x/Re_PL;
+/// Renaud, Mauret & Chhabra (2004), a fit to computed drag, about 0.4 <= n <= 1; 1 at n = 1.
+inline double power_law_factor(double n) {
+  return std::pow(6.0, 0.5 * (n - 1.0)) * std::pow(3.0 / (n * n + n + 1.0), n + 1.0);
+}
+
+/// Herschel-Bulkley parameters: tau = yield_stress + consistency * rate^index. SI. The last two weigh the terms of the
+/// stress scale around a particle, see HerschelBulkleyStress.
 struct Rheology {
   double yield_stress = 0.0; ///< tau0 [Pa], >= 0
   double consistency = 0.0;  ///< k [Pa s^n], > 0; the viscosity where index is 1
   double index = 1.0;        ///< n [-], > 0
   double density = 0.0;      ///< rho_f [kg/m3], > 0
+  double viscous_weight = 1.0;
+  double yield_weight = kAnsleySmith;
 
   bool newtonian() const { return yield_stress == 0.0 && index == 1.0; }
 };
@@ -33,15 +46,17 @@ struct ValueAndSlope {
   double slope;
 };
 
-/// Stress that the flow around a particle works against at a shear rate U/d: X = k rate^n + (7 pi/24) tau0 [Pa].
-/// Eq (23) is Re_HB = rho U^2 / X, and the viscosity that the particle meets is X / rate. Finite at rest.
+/// Stress that the flow around a particle works against at a shear rate U/d: X = x k rate^n + w tau0 [Pa] with x = 1
+/// and w = 7 pi/24 in the paper. Eq (23) is Re_HB = rho U^2 / X, and the viscosity that the particle meets is X / rate.
+/// Finite at rest.
 struct HerschelBulkleyStress {
-  double yield;       ///< (7 pi/24) tau0 [Pa]
-  double consistency; ///< k [Pa s^n]
+  double yield;       ///< w tau0 [Pa]
+  double consistency; ///< x k [Pa s^n]
   double index;       ///< n [-]
 
   explicit HerschelBulkleyStress(const Rheology& fluid)
-      : yield(kAnsleySmith * fluid.yield_stress), consistency(fluid.consistency), index(fluid.index) {}
+      : yield(fluid.yield_weight * fluid.yield_stress), consistency(fluid.viscous_weight * fluid.consistency),
+        index(fluid.index) {}
 
   double at_rest() const { return yield; }
   /// X(speed/length) and dX/d speed; speed > 0.
@@ -74,7 +89,7 @@ inline double bingham(const Rheology& f, double speed, double diameter) {
   return f.yield_stress / f.consistency * std::pow(diameter / speed, f.index);
 }
 
-/// Re_HB of eq (23) = Re_PL / (1 + (7 pi/24) Bi), written without division by zero; 0 at rest.
+/// Re_HB of eq (23) = Re_PL / (x + w Bi), written without division by zero; 0 at rest.
 inline double reynolds_herschel_bulkley(const Rheology& f, double speed, double diameter) {
   if (!(speed > 0.0))
     return 0.0;

@@ -62,7 +62,7 @@ void run_hand_written(benchmark::State& state) {
 
 int main(int argc, char** argv) {
   const char* laws[] = {"chien",  "schiller_naumann", "haider_levenspiel", "ganser", "holzer_sommerfeld",
-                        "wen_yu", "gidaspow",         "di_felice"};
+                        "wen_yu", "gidaspow",         "di_felice",         "qkqy"};
   benchmark::RegisterBenchmark("empty", [](benchmark::State& s) { run_effects(s, kMud); });
   benchmark::RegisterBenchmark("hand_written_drag/herschel_bulkley", run_hand_written);
   for (const char* law : laws)

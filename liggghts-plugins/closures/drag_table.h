@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The drag laws that a script can name: their effects, and their coefficients as plain numbers.
+#pragma once
+
+#include "closures/drag_laws.h"
+#include "closures/effect.h"
+
+#include <memory>
+#include <string>
+
+namespace eccentra::closures {
+
+struct DragLaw {
+  const char* name;
+  std::unique_ptr<Effect> (*make)(const char* name, const Rheology&);
+  std::unique_ptr<Effect> (*make_void_reynolds)(const char* name, const Rheology&); ///< with alpha Re in place of Re
+  /// G(Re) = C_D Re of one particle of this shape in its place, and dG/dRe; Re >= 0 as the law defines it.
+  ValueAndSlope (*reduced)(const ShapeFactors&, const DragPlace&, const Rheology&, double re);
+  /// F(U) [N] of one particle of diameter d [m] at the slip speed U [m/s] > 0, with the weights of the rheology.
+  double (*force)(const ShapeFactors&, const DragPlace&, const Rheology&, double d, double speed);
+  double own_yield_weight; ///< w of its source: 7 pi/24 (eq 23), 1 for qkqy
+};
+
+/// Null if there is none of this name.
+const DragLaw* find_drag_law(const std::string& name);
+
+/// "chien|..." for messages, without "none".
+std::string drag_law_names();
+
+/// The yield weight with which a sphere under this law rests where Beris et al. (1985) say: 4/(0.143 G(0)).
+double beris_yield_weight(const DragLaw& law, const Rheology& fluid);
+
+} // namespace eccentra::closures
