@@ -4,6 +4,9 @@
 import pathlib
 import re
 
+from docutils import nodes
+from docutils.utils.math.latex2mathml import tex2mathml
+
 project = "Eccentra"
 author = "Eccentra contributors"
 copyright = "Eccentra contributors, GPL-3.0-or-later"
@@ -16,7 +19,28 @@ root_doc = "index"
 exclude_patterns = ["README.md"]
 html_theme = "furo"
 html_title = f"Eccentra {release}"
-html_extra_path = []
+html_math_renderer = "mathml"
+html_static_path = ["_static"]
+html_css_files = ["eccentra.css"]
+html_show_sphinx = False
 pygments_style = "friendly"
 # Input scripts and dictionaries are highlighted as plain text.
 highlight_language = "none"
+
+
+# Formulas are MathML in the page, which needs neither a script nor a network. The converter of docutils aligns rows without `aligned`.
+def block_of(formula):
+    rows = re.sub(r"\\(begin|end){aligned}", "", formula)
+    return f'<div class="formula">{tex2mathml(rows, inline=False)}</div>'
+
+
+def show(render):
+    def visit(writer, node):
+        writer.body.append(render(node.astext()))
+        raise nodes.SkipNode
+
+    return visit, None
+
+
+def setup(app):
+    app.add_html_math_renderer("mathml", show(tex2mathml), show(block_of))
