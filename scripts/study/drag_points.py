@@ -11,7 +11,7 @@ DEFAULT = ROOT.parent / "shared" / "data" / "drag_test_points.csv"
 COLUMNS = ("sphericity", "Re", "Cd", "source", "flag", "shape", "crosswise")
 GOOD, COARSE = 0, 5  # flags: to be used; to be used, with a sphericity that is good to 20 % only
 LAWS = ("chien", "haider_levenspiel", "ganser", "holzer_sommerfeld", "schiller_naumann", "di_felice")
-NEAR = 1.25  # what the share counts
+NEAR = 0.25  # |law/measured - 1| that the share counts
 CREEP, SLOW = 0.1, 20.0  # Re
 ROUND = 0.5  # sphericity above which a fragment counts as compact
 # Bands of trust: (bias, rms) up to which a law is trusted, or may serve.
@@ -69,7 +69,7 @@ SETS = {
 
 
 class Off(typing.NamedTuple):
-    """Of law over measured: geometric mean less 1, exp of the root mean square of the logarithm less 1, share within 25 % either way."""
+    """Of law over measured: geometric mean less 1, exp of the root mean square of the logarithm less 1, share within 25 %."""
     count: int
     bias: float
     rms: float
@@ -83,10 +83,11 @@ class Off(typing.NamedTuple):
 
 
 def off(ratios):
+    """Of the ratios law/measured of some points."""
     logs = [math.log(ratio) for ratio in ratios]
     mean = sum(logs) / len(logs)
     return Off(len(logs), math.expm1(mean), math.expm1(math.sqrt(sum(v * v for v in logs) / len(logs))),
-               sum(abs(v) <= math.log(NEAR) for v in logs) / len(logs))
+               sum(abs(ratio - 1) <= NEAR for ratio in ratios) / len(ratios))
 
 
 def coefficients(build, points, laws, folder):

@@ -46,7 +46,7 @@ def write_csv(path, header, rows):
         writer.writerows(rows)
 
 
-OF_THIS_MACHINE = ("--build", "--out", "--output", "--measured", "--jobs")
+OF_THIS_MACHINE = ("--build", "--out", "--output", "--measured", "--data", "--jobs")
 
 
 def called(script, words):

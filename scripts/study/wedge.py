@@ -4,7 +4,6 @@
 import csv
 import math
 import re
-import shutil
 import typing
 
 from . import foam, runs
@@ -12,7 +11,8 @@ from .programs import RunFailed, run
 
 HALF = math.radians(1.0)  # of the wedge's angle
 SPEED = DIAMETER = 2.0  # of scenes/creeping-drag: U/d = 1/s, and a sphere has the radius 1
-CHUNK = 250  # steps from one look at the drag to the next
+CHUNK, SHORT = 250, 50  # steps from one look at the drag to the next; of each lower cap at the start
+CAPS = (3.0, 30.0, 300.0)  # a first step at the full cap diverges where n < 1: each cap begins with the flow of the one before
 STEADY = 2e-4  # relative change of the drag over two chunks
 LONGEST = 32  # chunks
 
@@ -64,9 +64,8 @@ def move_points(case, folder):
 
 
 def set_up(case, folder):
-    foam.set_up(folder, "creeping-drag", settings={
-        "runRadial": case.radial, "runQuarter": case.polar // 2, "runBingham": case.bingham, "runIndex": case.index,
-        "runMuY": case.cap * (1.0 + case.bingham), "runChunk": CHUNK}, end={"runEnd": 0, "runFormat": "ascii"})
+    foam.set_up(folder, "creeping-drag", end={"runEnd": 0, "runFormat": "ascii", "runMuY": 1}, settings={
+        "runRadial": case.radial, "runQuarter": case.polar // 2, "runBingham": case.bingham, "runIndex": case.index})
     run(["blockMesh"], folder, folder / "blockMesh.txt")
     move_points(case, folder / "constant" / "polyMesh")
     (folder / "ready").touch()
@@ -82,30 +81,37 @@ def drag_of(folder):
     return [(time, *values) for time, values in sorted(rows.items())]
 
 
-def is_steady(drags):
-    """Of the drag at the ends of the chunks."""
-    return len(drags) > 2 and max(abs(value / drags[-1] - 1) for value in drags[-3:]) < STEADY
+def stages(case):
+    """(last step, cap) of each run of annulusFoam, one after the other: those at lower caps, those whose drag counts."""
+    low = [cap for cap in CAPS if cap < case.cap]
+    starts = [(SHORT * (k + 1), cap) for k, cap in enumerate(low)]
+    return starts, [(SHORT * len(low) + CHUNK * (k + 1), case.cap) for k in range(LONGEST)]
+
+
+def change_of(drags):
+    """Largest relative change of the drag over the last two chunks."""
+    return max(abs(value / drags[-1] - 1) for value in drags[-3:]) if len(drags) > 2 else math.inf
 
 
 def solve(build, case, folder):
     """Marches until the drag is steady; goes on where an earlier call stopped. Drag, its change over the last chunks, steps, CPU seconds."""
     if not (folder / "ready").is_file():
         set_up(case, folder)
-    cpu = 0.0
-    reached = max((float(time.name) for time in folder.glob("[1-9]*") if (time / "p").is_file()), default=0.0)
-    drags = [c for time, c, _ in drag_of(folder) if time % CHUNK == 0 and time <= reached]
-    while not is_steady(drags) and len(drags) < LONGEST:
-        foam.put(folder / "end", runEnd=CHUNK * (len(drags) + 1), runFormat="binary")
-        cpu += run([build / "bin" / "annulusFoam"], folder, folder / "out.txt").cpu
-        time, now, residual = drag_of(folder)[-1]
-        if not math.isfinite(now) or time != CHUNK * (len(drags) + 1):
-            raise RunFailed(f"the run ended at step {time:g} with a drag of {now:g}: see {folder / 'out.txt'}")
-        for old in folder.glob("[1-9]*"):
-            if float(old.name) < time:
-                shutil.rmtree(old)
-        drags.append(now)
-    return {"drag": drags[-1], "change": max(abs(value / drags[-1] - 1) for value in drags[-3:]), "steps": CHUNK * len(drags),
-            "residual": drag_of(folder)[-1][2], "cpu": cpu}
+    cpu, drags = 0.0, []
+    starts, chunks = stages(case)
+    for last, cap in starts + chunks:
+        reached = max((int(time.name) for time in folder.glob("[1-9]*") if (time / "p").is_file()), default=0)
+        if reached < last:
+            foam.put(folder / "end", runEnd=last, runFormat="binary", runMuY=cap * (1.0 + case.bingham))
+            cpu += run([build / "bin" / "annulusFoam"], folder, folder / "out.txt").cpu
+        reports = {time: (drag, residual) for time, drag, residual in drag_of(folder)}
+        if last not in reports or not math.isfinite(reports[last][0]):
+            raise RunFailed(f"there is no drag at step {last}: see {folder / 'out.txt'}")
+        if (last, cap) in chunks:
+            drags.append(reports[last][0])
+        if change_of(drags) < STEADY:
+            break
+    return {"drag": drags[-1], "change": change_of(drags), "steps": last, "residual": reports[last][1], "cpu": cpu}
 
 
 def job(build, case, name):

@@ -32,6 +32,9 @@ STUDIES = {
                      "--quick": []}, ()),
     "closure-cost": ([], {"--repetitions": ["2"], "--quick": []}, ("--csv", "--coupled")),
     "rheology-accuracy": ([], {"--cells": ["20"], "--ratios": ["10"], "--steps": ["30"], "--quick": []}, ()),
+    "creeping-drag": (["--indices", "1", "--bingham", "1", "--aspects", "1"], {
+        "--indices": ["0.6"], "--bingham": ["10"], "--aspects": ["2"], "--checks": ["no"], "--quick": []}, ()),
+    "drag-against-measurement": (["--data", "POINTS"], {"--data": ["OTHER_POINTS"], "--laws": ["chien"]}, ()),
     "solver-cost": ([], {"--cells": ["4 24 10"], "--length": ["0.2"], "--steps": ["3"], "--turns": ["1"], "--pressure": ["pcg"],
                          "--viscosity": ["strainRate"], "--quick": []}, ()),
     "link-cost": ([], {"--parts": ["ranks"], "--turns": ["2"], "--quick": []}, ()),
@@ -75,6 +78,10 @@ def replaced(base, option, value):
 class Reported(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.files = {"OTHER": str(self.folder / "other")}
+        for name, drag in (("POINTS", 30.0), ("OTHER_POINTS", 31.0)):
+            self.files[name] = str(self.folder / name)
+            (self.folder / name).write_text(f"sphericity,Re,Cd,source,flag,shape,crosswise\n1,1,{drag},nobody,0,sphere in air,\n")
 
     def fake_build(self, name):
         """A build with our programs, and with files in place of benchmarks that are not built for the tests."""
@@ -89,7 +96,7 @@ class Reported(unittest.TestCase):
         return build
 
     def keys(self, script, words, **where):
-        said = run(script, *words, "--plan", "--out", self.folder / "out", **where)
+        said = run(script, *(self.files.get(word, word) for word in words), "--plan", "--out", self.folder / "out", **where)
         self.assertEqual(said.returncode, 0, f"{script} {words}: {said.stderr}")
         found = set(re.findall(r"^([0-9a-f]{16}\.[0-9a-f]{16})  (?:there|to run)", said.stdout, re.M))
         self.assertTrue(found, f"{script} {words}: {said.stdout}{said.stderr}")
@@ -105,7 +112,7 @@ class Reported(unittest.TestCase):
             for option, value in changed.items():
                 start = STARTS.get((script, option), base)
                 calls[script, option, "before"] = (start, build)
-                calls[script, option, "after"] = (replaced(start, option, [str(other) if word == "OTHER" else word for word in value]), build)
+                calls[script, option, "after"] = (replaced(start, option, value), build)
         different = {(script, tuple(words), where): None for (script, *_), (words, where) in calls.items()}
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
             for call, keys in zip(different, pool.map(lambda call: self.keys(call[0], call[1], build=call[2]), different)):
@@ -136,6 +143,9 @@ class Reported(unittest.TestCase):
                 ("effects", "cases/effects/in.scene", ["--scenes"]),
                 ("effects", "scripts/study/scenes/off.in", ["--off"]),
                 ("rheology-accuracy", "scripts/study/scenes/channel/constant/flowProperties", []),
+                ("creeping-drag", "scripts/study/scenes/creeping-drag/system/fvSolution", ["--quick"]),
+                ("creeping-drag", "scripts/study/wedge.py", ["--quick"]),
+                ("drag-against-measurement", "scripts/study/drag_points.py", ["--data", "POINTS"]),
                 ("solver-cost", "scripts/study/scenes/solver-cost/system/fvSolution", []),
                 ("demo", "cases/run-coupled", ["--skip-setup"]),
                 ("hard-cases", "tests/stability/harness/checks.py", ["--only", "contact/slope10"]),
@@ -201,7 +211,8 @@ class Reported(unittest.TestCase):
         build = self.fake_build("one")
         for script in [*STUDIES, "hard-cases"]:
             with self.subTest(script):
-                words = ["--skip-setup"] if script == "demo" else ["--codes", "ours"] if script == "compare-peers" else []
+                words = {"demo": ["--skip-setup"], "compare-peers": ["--codes", "ours"],
+                         "drag-against-measurement": ["--data", self.files["POINTS"]]}.get(script, [])
                 said = run(script, *words, "--out", file / "results", build=build)
                 self.assertNotEqual(said.returncode, 0)
                 self.assertRegex(said.stderr, rf"^{script}: error: .*; name a folder that can be written with --out\n$")

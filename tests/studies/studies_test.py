@@ -14,7 +14,8 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("ECCENTRA_BUILD", ROOT / "build"))
 sys.path.insert(0, str(ROOT / "scripts"))
-from study import charts, ladders, level_study, levels, loop_data, measures, runs, section, tables, timing  # noqa: E402
+from study import charts, ladders, level_study, levels, loop_data, measures, runs, section, tables, timing, wedge  # noqa: E402
+from study.commands import creeping_drag  # noqa: E402
 
 
 class Measures(unittest.TestCase):
@@ -76,6 +77,37 @@ class Ladders(unittest.TestCase):
 
     def test_filling(self):
         self.assertEqual(section.bodies_at(0.05, 0.3), 1213)  # 5 % of pi (0.0635^2 - 0.02413^2) 0.3 m3
+
+
+class CreepingDrag(unittest.TestCase):
+    def test_surfaces_are_the_body_and_a_sphere(self):
+        for aspect in (1.0, 2.0, 0.5):
+            at = wedge.surfaces(aspect, 50.0)
+            along, across = at(0.0)
+            self.assertAlmostEqual(along / across, aspect)
+            self.assertAlmostEqual(along * across ** 2, 1)  # the volume of the sphere of radius 1
+            self.assertAlmostEqual(at(1.0)[0] / 50, 1, delta=5e-4)
+            self.assertAlmostEqual(at(1.0)[1] / 50, 1, delta=5e-4)
+
+    def test_cross_coefficient(self):
+        cases = [wedge.Case(index=0.8, bingham=b) for b in (0.0, 1.0, 10.0)]
+        c, worst = creeping_drag.cross_coefficient([(case, creeping_drag.terms(case) + 1.3 * math.sqrt(case.bingham)) for case in cases])
+        self.assertAlmostEqual(c, 1.3)
+        self.assertAlmostEqual(worst, 0)
+        self.assertAlmostEqual(creeping_drag.terms(wedge.Case(index=0.65, bingham=1.0)), 1.3454191712 + 4 / 3 / 24 * 3 / 0.143, delta=1e-9)
+
+    def test_concentric_spheres(self):
+        case = wedge.Case(outer=20.0)
+        self.assertAlmostEqual(creeping_drag.without_outer_sphere(1.1264, case), 1, delta=1e-4)
+        self.assertEqual(creeping_drag.without_outer_sphere(2.0, wedge.Case(bingham=1.0)), 2.0)
+
+    def test_marching_ends_where_the_drag_is_steady(self):
+        self.assertEqual(wedge.change_of([1.0, 1.0]), math.inf)
+        self.assertAlmostEqual(wedge.change_of([9.0, 1.1, 1.0, 1.05, 1.0]), 0.05)
+        starts, chunks = wedge.stages(wedge.Case(cap=100.0))
+        self.assertEqual(([cap for _, cap in starts], chunks[0][1]), ([3.0, 30.0], 100.0))
+        lasts = [last for last, _ in starts + chunks]
+        self.assertEqual(lasts, sorted(set(lasts)))
 
 
 class Timing(unittest.TestCase):
@@ -325,6 +357,9 @@ class Scripts(unittest.TestCase):
                 ("effects", ["--gradient", "1,5"], "--gradient is '1,5': a number in 1/s is needed"),
                 ("closure-cost", ["--repetitions", "x"], "'x' is not a whole number of at least 1"),
                 ("rheology-accuracy", ["--ratios", "a"], "--ratios: could not convert string to float: 'a'"),
+                ("creeping-drag", ["--indices", "0"], "--indices: 0 is not a positive number"),
+                ("creeping-drag", ["--bingham", "x"], "--bingham: could not convert string to float: 'x'"),
+                ("drag-against-measurement", ["--data", "/nowhere.csv"], "--data /nowhere.csv: No such file"),
                 ("solver-cost", ["--cells", "1 2"], "'1 2' is not three whole numbers such as"),
                 ("cluster-speed", ["--shapes", "cube"], "--shapes has 'cube': give FAMILY:N"),
                 ("compare-peers", ["--codes", "ours", "--bodies", "100000"], "--bodies is 100000, which do not fit the scene: give"),

@@ -23,7 +23,7 @@ def panel(law, values, points):
     series = [charts.Series(name, [charts.Point(p.re, value / p.cd) for p, value in zip(points, values) if drag_points.SETS[name](p)],
                             charts.COLOURS[k]) for k, name in enumerate(chosen)]
     ends = [p.x for s in series for p in s.points]
-    for level in (1 / drag_points.NEAR, 1.0, drag_points.NEAR):
+    for level in (1 - drag_points.NEAR, 1.0, 1 + drag_points.NEAR):
         series.append(charts.Series("", [charts.Point(x, level) for x in (min(ends), max(ends))], "#666666", True, False, level != 1.0))
     return charts.Panel(law, "Re", "C_D of the law over measured", series, True, True)
 
@@ -35,8 +35,14 @@ def main():
                         help="points with the columns " + ", ".join(drag_points.COLUMNS) +
                              " (default: ../shared/data/drag_test_points.csv, beside the checkout)")
     parser.add_argument("--laws", action=options.Words, metavar="LAW", help="default: " + " ".join(drag_points.LAWS))
-    chosen = parser.settle(("dragLaw",))
-    points = [p for p in drag_points.read(chosen.data) if p.flag in (drag_points.GOOD, drag_points.COARSE)]
+
+    def check(words):
+        words.points = [p for p in drag_points.read(words.data) if p.flag in (drag_points.GOOD, drag_points.COARSE)]
+        if not any(belongs(p) for p in words.points for belongs in drag_points.SETS.values()):
+            raise Failure(f"--data {words.data}: no point belongs to a set; the sets are {', '.join(drag_points.SETS)}")
+
+    chosen = parser.settle(("dragLaw",), check)
+    points = chosen.points
     laws = tuple(chosen.laws or drag_points.LAWS)
     jobs = {"": job(chosen.build, chosen.data, points, laws)}
     found = chosen.store.run_all("drag laws", jobs.values())
@@ -54,8 +60,6 @@ def main():
             rows.append([name, law, off.count, f"{100 * off.bias:+.1f}", f"{100 * off.rms:.1f}", f"{100 * off.share:.0f}", off.trust()])
             line.append(f"{MARKS[off.trust()]} {100 * off.bias:+.1f}, {100 * off.rms:.1f}, {100 * off.share:.0f} %")
         marked.append(line)
-    if not marked:
-        raise Failure(f"--data {chosen.data}: no point belongs to a set; the sets are {', '.join(drag_points.SETS)}")
     tables.publish(chosen, "drag-laws", "Law over measured [%]", ["set", "law", "points", "bias", "rms", "within_25", "trust"], rows)
     page = ["Law over measured: geometric bias [%], logarithmic rms [%], share within 25 %.", "",
             tables.markdown(["set", "points", *laws], marked)]
