@@ -7,8 +7,10 @@ if(ECCENTRA_OPENFOAM)
       adversary_1_disk_full_for_a_moment adversary_1b_dump_cluster_vtk_on_a_full_disk adversary_2_shorter_coupling_csv
       adversary_2b_a_forgotten_resume adversary_2b_newer_checkpoints_are_kept adversary_5_another_mesh
       adversary_5_another_interval_or_step adversary_12_a_resumed_run_that_inserts
+      adversary_12_a_resumed_run_that_inserts_on_two_ranks resume_any_script_goes_on_from_any_signal
       adversary_14_standard_output_on_a_full_disk
       adversary_15_words_of_run adversary_17_names_of_folders adversary_4_comma_locale
+      resume_over_the_socket_on_two_ranks
       resume_script_that_does_not_read_the_checkpoint resume_heap_alone
     LIBRARIES eccentra_link DEPENDS annulusFoam annulusMesh LABELS coupled TIMEOUT 200
     ENVIRONMENT "ECCENTRA_CASES=${PROJECT_SOURCE_DIR}/cases")

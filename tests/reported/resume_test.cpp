@@ -119,6 +119,19 @@ fs::path interrupted(const Straight& run, const std::string& name) {
   return folder;
 }
 
+/// Programs of a run in `folder`.
+std::vector<int> processes_in(const fs::path& folder) {
+  std::vector<int> found;
+  for (const fs::directory_entry& process : fs::directory_iterator("/proc")) {
+    const std::string id = process.path().filename();
+    std::error_code gone;
+    if (id.find_first_not_of("0123456789") == std::string::npos &&
+        fs::read_symlink(process.path() / "cwd", gone) == fs::absolute(folder))
+      found.push_back(std::stoi(id));
+  }
+  return found;
+}
+
 std::vector<std::string> case_run(const std::string& name, const std::vector<std::string>& more) {
   std::vector<std::string> arguments = {required_environment("ECCENTRA_CASES") + '/' + name + "/run", "--bin",
                                         required_environment("ECCENTRA_BIN")};
@@ -169,8 +182,11 @@ void expect_heap_goes_on(int ranks) {
   {
     BackgroundJob job(parts, arguments, "log.first");
     ASSERT_TRUE(wait_until([&] { return fs::exists(parts / "checkpoints/4000"); })) << job.text();
+    std::vector<int> all;
     for (int child = 0; ranks > 1 && job.child(child) > 0; ++child)
-      kill(job.child(child), SIGKILL);
+      all.push_back(job.child(child));
+    for (const int child : all)
+      kill(child, SIGKILL);
     job.signal(SIGKILL);
     job.wait(kLong);
   }
@@ -208,6 +224,36 @@ TEST(Reported, readme_ctrl_c_in_tomren_section_then_resume) {
   const ProgramResult longer = start(here, case_run("tomren-section", {"--resume", "parts", "--seconds", "0.25"}));
   EXPECT_EQ(longer.status, 0) << longer.output;
   EXPECT_EQ(rows_of(here / "parts"), 52U);
+}
+
+TEST(Reported, resume_over_the_socket_on_two_ranks) {
+  const fs::path here = fresh_folder("socket");
+  const std::vector<std::string> more = {"--link", "socket", "--ranks", "2", "--shape", "cube 8"};
+  ASSERT_EQ(start(here, case_run("tomren-section", short_section("whole", more))).status, 0);
+  const fs::path parts = here / "parts";
+  const auto interrupt = [&](const std::vector<std::string>& arguments, std::size_t rows, int number) {
+    BackgroundJob job(here, arguments, "log.parts");
+    ASSERT_TRUE(wait_until([&] { return fs::exists(parts / "checkpoints") && rows_of(parts) >= rows; })) << job.text();
+    if (number == SIGKILL)
+      for (const int process : processes_in(parts))
+        kill(process, SIGKILL);
+    job.signal(number);
+    EXPECT_NE(job.wait(kLong), 0) << job.text();
+    EXPECT_TRUE(wait_until([&] { return processes_in(parts).empty(); }));
+  };
+  interrupt(case_run("tomren-section", short_section("parts", more)), 8, SIGTERM);
+  interrupt(case_run("tomren-section", {"--resume", "parts"}), 16, SIGINT);
+  const auto steps = eccentra::link::numbered_entries(parts / "checkpoints", "");
+  EXPECT_EQ(steps.size(), 2U);
+  interrupt(case_run("tomren-section", {"--resume", "parts"}), 26, SIGKILL);
+  const ProgramResult again = start(here, case_run("tomren-section", {"--resume", "parts"}));
+  EXPECT_EQ(again.status, 0) << again.output;
+  EXPECT_TRUE(says(again.output, "goes on from checkpoint " + std::to_string(steps.at(0)))) << again.output;
+  const char* const table = "postProcessing/eccentra/coupling.csv";
+  EXPECT_EQ(physics_of_table(parts / table), physics_of_table(here / "whole" / table));
+  for (const char* field : {"0.2/U", "0.2/alpha"})
+    EXPECT_EQ(contents(parts / field), contents(here / "whole" / field)) << field;
+  EXPECT_FALSE(contents(parts / "0.2/alpha").empty());
 }
 
 TEST(Reported, readme_cp_r_tomren_section_run) {
@@ -397,6 +443,10 @@ TEST(Reported, adversary_12_a_resumed_run_that_inserts) {
   expect_heap_goes_on(1);
 }
 
+TEST(Reported, adversary_12_a_resumed_run_that_inserts_on_two_ranks) {
+  expect_heap_goes_on(2);
+}
+
 TEST(Reported, resume_heap_alone) {
   // A signal, at a step that no checkpoint was planned for; and a forgotten word.
   const fs::path whole = fresh_folder("whole"), parts = fresh_folder("parts");
@@ -569,15 +619,29 @@ TEST(Reported, resume_any_script_goes_on_from_any_signal) {
       "jump in.dem again\ncompute ke all ke\nfix sums all ave/time 40 1 40 c_ke file sums.txt\n"
       "run 600 every 200 \"velocity low set 0.01 0 0\"\nunfix sums\n");
   const Straight whole = straight(box, "whole");
-  for (const int seconds_in_hundredths : {20, 60, 100, 140}) {
+  struct End {
+    int signal, every, step; // checkpoints each so many coupling steps; the run goes on from the one of this step
+    const char* where;
+  };
+  for (const End& end :
+       {End{SIGINT, 2, 80, "within a run"}, End{SIGKILL, 3, 120, "at the last step of a run"},
+        End{SIGKILL, 3, 360, "at the last step of a run, before one of pieces"}, End{SIGTERM, 5, 400, "within a piece"},
+        End{SIGKILL, 7, 560, "at the last step of a piece"}, End{SIGKILL, 8, 960, "at the last step of all"}}) {
     const fs::path folder = beginning_of(whole, "parts");
+    replace_in(folder / "in.dem", "checkpoint auto", "checkpoint " + std::to_string(end.every));
+    const fs::path checkpoints = folder / "checkpoints";
     BackgroundJob job(folder, annulus_foam(), "log.first");
-    std::this_thread::sleep_for(std::chrono::milliseconds(10 * seconds_in_hundredths));
-    job.signal(SIGINT);
-    const int code = job.wait(kLong);
-    EXPECT_NE(code, -1);
+    ASSERT_TRUE(wait_until([&] { return fs::exists(checkpoints / std::to_string(end.step)); })) << job.text();
+    job.signal(end.signal);
+    ASSERT_NE(job.wait(kLong), -1);
+    for (const auto step : eccentra::link::numbered_entries(checkpoints, ""))
+      if (end.signal == SIGKILL && step > end.step)
+        fs::remove_all(checkpoints / std::to_string(step));
+    fs::remove(checkpoints / "finished");
     const ProgramResult again = start(folder, annulus_foam({"-resume"}));
-    EXPECT_EQ(again.status, 0) << again.output << contents(folder / "log.liggghts");
-    EXPECT_EQ(result_of(folder), whole.result) << job.text() << again.output;
+    EXPECT_EQ(again.status, 0) << end.where << again.output << contents(folder / "log.liggghts");
+    if (end.signal == SIGKILL)
+      EXPECT_TRUE(says(again.output, "goes on from checkpoint " + std::to_string(end.step))) << again.output;
+    EXPECT_EQ(result_of(folder), whole.result) << end.where;
   }
 }

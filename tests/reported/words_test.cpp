@@ -286,6 +286,44 @@ TEST(Reported, copied_case_with_another_grain) {
   EXPECT_GE(cases, 2);
 }
 
+// Columns of the stock dumps that read the size or the spin of a body: the body's own, or not offered.
+TEST(Reported, dump_columns_of_bodies) {
+  const std::string body = head + one_place +
+                           "fix ins all insert/pack seed 32452843 distributiontemplate d insert_every once omega "
+                           "constant 1 2 3 region one particles_in_region 1\nrun 1\nunfix ins\n";
+  const auto print_first = [](const std::string& columns) {
+    return "dump c all custom 1 columns.txt " + columns +
+           "\ndump_modify c format \"%.12g %.12g %.12g %.12g %.12g %.12g %.12g %.12g %.12g %.12g\"\nrun 0\n";
+  };
+  const ProgramResult run = run_script(
+      body + print_first("mass density radius diameter omegax omegay omegaz f_cluster_bodies[5] f_cluster_bodies[6] "
+                         "f_cluster_bodies[7]"));
+  EXPECT_EQ(run.status, 0) << run.output;
+  std::ifstream file("scene/columns.txt");
+  std::string line;
+  while (std::getline(file, line) && line.rfind("ITEM: ATOMS", 0) != 0)
+    ;
+  double mass = 0, density = 0, radius = 0, diameter = 0, spin[3] = {}, momentum[3] = {};
+  ASSERT_TRUE(file >> mass >> density >> radius >> diameter >> spin[0] >> spin[1] >> spin[2] >> momentum[0] >>
+              momentum[1] >> momentum[2])
+      << run.output;
+  const double volume = std::acos(-1.0) / 6 * std::pow(6e-3, 3);
+  EXPECT_NEAR(mass, 2500 * volume, 1e-9 * mass);
+  EXPECT_NEAR(density, 2500, 1e-9 * density);
+  EXPECT_GT(radius, 3e-3) << "of the bounding sphere";
+  EXPECT_NEAR(diameter, 2 * radius, 1e-9 * radius);
+  // Inserted with this spin, and turned freely for one step of 20 us.
+  const double inertia_of_ball = 0.4 * mass * 9e-6;
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(spin[k], 1 + k, 0.01);
+    EXPECT_GT(std::abs(momentum[k]), 0.1 * inertia_of_ball);
+  }
+  for (const char* column : {"angmomx", "quat1", "shapex", "inertiax", "blockiness1", "roundness1", "eradius", "mux"}) {
+    const ProgramResult none = run_script(body + print_first(column), "column");
+    expect_refused(none, {"isn't allocated"});
+  }
+}
+
 // Every keyword of the stock styles that ours stand in for, but for those that are simply obeyed: refused by name.
 TEST(Reported, keywords_of_stock_styles) {
   struct Row {
@@ -357,6 +395,21 @@ TEST(Reported, keywords_of_stock_styles) {
        "fix ins all insert/pack seed 32452843 distributiontemplate d insert_every once compress_tags no "
        "verbose no random_distribute exact maxattempt 10 vel gaussian 0 0 0 0.1 0.1 0.1 omega constant 1 0 "
        "0 region box particles_in_region 1\nfix integr",
+       nullptr},
+      // dump_modify of dump custom/vtk
+      {"fix integr", "dump v all cluster/vtk 1 v_*.vtp\ndump_modify v append yes\nfix integr", "append 'yes'"},
+      {"fix integr", "dump v all cluster/vtk 1 v_*.vtp\ndump_modify v format %g\nfix integr", "format '%g'"},
+      {"fix integr", "dump v all cluster/vtk 1 v_*.vtp\ndump_modify v region box\nfix integr", "'region'"},
+      {"fix integr", "dump v all cluster/vtk 1 v_*.vtp\ndump_modify v thresh z < 0.01\nfix integr", "'thresh'"},
+      {"fix integr", "dump v all cluster/vtk 1 v_*.vtp\ndump_modify v label x\nfix integr", "'label'"},
+      {"fix integr", "dump v all cluster/vtk 1 v_*.vtp\ndump_modify v element C\nfix integr", "'element'"},
+      {"fix integr", "dump v all cluster/vtk 1 v_*.vtp\ndump_modify v binary yes\nfix integr", "'binary'"},
+      {"fix integr", "dump v all cluster/vtk 1 v_*.vtp\ndump_modify v sort -2\nfix integr", "sort '-2'"},
+      {"fix integr", "dump v all cluster/vtk 1 v_*.vtp\ndump_modify v nfile 1\nfix integr", "dump_modify nfile"},
+      {"fix integr", "dump v all cluster/vtk 1 v_*.vtp\ndump_modify v fileper 1\nfix integr", "dump_modify fileper"},
+      {"fix integr",
+       "dump v all cluster/vtk 1 v_*.vtp\ndump_modify v append no sort id pad 6 first yes every 2 flush yes buffer no "
+       "format none\nfix integr",
        nullptr},
       // check/timestep/gran
       {"fix integr", "fix c all check/timestep/gran 10 0.3 0.3\nfix integr", "check/timestep/gran"},

@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <numeric>
 
@@ -131,6 +132,31 @@ DumpClusterVtk::DumpClusterVtk(LAMMPS* lmp, int narg, char** arg) : Dump(lmp, na
       error->all(FLERR, (where + "'" + word + " " + value + "' is unknown: write rows spheres or rows bodies").c_str());
     bodies_only_ = value == "bodies";
   }
+}
+
+void DumpClusterVtk::refuse_word(const std::string& text) {
+  error->all(FLERR, ("dump_modify " + std::string(id) + ": " + text).c_str());
+  std::abort(); // error->all does not return
+}
+
+// LIGGGHTS reads these words for dumps of all styles.
+void DumpClusterVtk::init_style() {
+  if (append_flag)
+    refuse_word("append 'yes' is not for dump cluster/vtk, which writes one file per step; expected no: remove it");
+  if (format_user)
+    refuse_word("format '" + std::string(format_user) +
+                "' is not for dump cluster/vtk, whose numbers are binary; expected none: remove it");
+}
+
+int DumpClusterVtk::modify_param(int narg, char** arg) {
+  const std::string word = arg[0], value = narg > 1 ? arg[1] : "";
+  if (word != "sort")
+    refuse_word("'" + word +
+                "' is not a word of dump cluster/vtk; expected every, first or pad: for some of the bodies, give the "
+                "dump a group");
+  if (value != "id")
+    refuse_word("sort '" + value + "' is not the order of dump cluster/vtk; expected id: remove it");
+  return 2;
 }
 
 std::string DumpClusterVtk::file_name() const {

@@ -19,7 +19,9 @@ class DumpClusterVtk : public LAMMPS_NS::Dump {
   void write() override;
 
  private:
-  void init_style() override {}
+  void init_style() override;
+  int modify_param(int narg, char** arg) override;
+  [[noreturn]] void refuse_word(const std::string& text);
   // Dump::write would call these; ours gathers and writes by itself.
   void write_header(LAMMPS_NS::bigint) override {}
   void pack(int*) override {}

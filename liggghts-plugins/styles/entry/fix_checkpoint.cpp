@@ -7,6 +7,7 @@
 #include "link/ranks.h"
 #include "link/stop_signal.h"
 #include "styles/entry/random_states.h"
+#include "styles/entry/script_replay.h"
 #include "styles/entry/style_registry.h"
 
 #include <mpi.h>
@@ -178,7 +179,7 @@ void FixCheckpoint::end_of_step() {
 
 void FixCheckpoint::restore() {
   resumed_step_ = -1;
-  for (int i = 0; i < atom->nlocal; ++i) {
+  for (int i = 0; forces_carry_on() && i < atom->nlocal; ++i) {
     std::copy_n(resumed_[i].values, 3, atom->f[i]);
     if (atom->torque)
       std::copy_n(resumed_[i].values + 3, 3, atom->torque[i]);

@@ -47,8 +47,9 @@ struct Script {
   bool replaying = false; ///< goes_on, in a script with `resumable`
   bool read = false;      ///< the checkpoint is in memory
   bool resumable = false;
-  bool inside_run = false; ///< which goes on in pieces
-  std::int64_t every = 0;  ///< steps between checkpoints of a script without a fluid; 0: by the clock
+  bool inside_run = false;  ///< which goes on in pieces
+  bool set_up_anew = false; ///< the straight run, too, sets up here
+  std::int64_t every = 0;   ///< steps between checkpoints of a script without a fluid; 0: by the clock
   link::CheckpointChoice choice;
   std::vector<RunSpan> done;    ///< of the checkpoint; the last one is that in which it was written
   std::vector<RunSpan> runs;    ///< that this script has begun or left out
@@ -106,12 +107,28 @@ RunSpan span_of(LAMMPS* lmp, const std::string& command, int narg, char** arg, s
   return {first, upto ? steps : first + steps};
 }
 
+/// `run ... pre no` sets nothing up, unless it is the first run.
+bool sets_up(int narg, char** arg) {
+  for (int i = 1; i + 1 < narg && std::strcmp(arg[i], "every") != 0; ++i)
+    if (std::strcmp(arg[i], "pre") == 0)
+      return std::strcmp(arg[i + 1], "no") != 0;
+  return true;
+}
+
+/// The checkpoint fell on the last step of a run.
+bool stands_at_end_of_run(LAMMPS* lmp) {
+  const Script& now = script();
+  return now.read && !now.done.empty() && now.done.back().last == now.choice.mark.step &&
+         lmp->update->ntimestep == now.choice.mark.step;
+}
+
 /// The first run that the checkpoint has not behind it: from the step of the checkpoint to its end.
 void go_on_with_run(LAMMPS* lmp, int narg, char** arg, const RunSpan& whole) {
   std::vector<std::string> kept;
   std::vector<std::string> commands;
   std::int64_t every = 0;
   bool start = false, stop = false;
+  const bool each_piece_sets_up = sets_up(narg, arg); // the arguments are gone after a command
   for (int i = 1; i < narg; ++i) {
     const std::string word = arg[i];
     start = start || word == "start";
@@ -139,12 +156,15 @@ void go_on_with_run(LAMMPS* lmp, int narg, char** arg, const RunSpan& whole) {
   const auto run = [&](std::int64_t last, const std::string& more) {
     lmp->input->one(("run " + std::to_string(last) + arguments + more).c_str());
   };
-  if (every > 0 && (step - whole.first) % every != 0) {
-    from = std::min(whole.last, step + every - (step - whole.first) % every);
+  if (every > 0 && step > whole.first) {
+    // To the end of the piece, which may be here: its commands come after the checkpoint.
+    const std::int64_t left = (every - (step - whole.first) % every) % every;
+    from = std::min(whole.last, step + left);
     run(from, "");
     for (const std::string& one : commands)
       if (one != "NULL")
         lmp->input->one(one.c_str());
+    script().set_up_anew = from == step && each_piece_sets_up;
   }
   std::string more;
   if (every > 0) {
@@ -152,7 +172,7 @@ void go_on_with_run(LAMMPS* lmp, int narg, char** arg, const RunSpan& whole) {
     for (const std::string& one : commands)
       more += " \"" + one + '"';
   }
-  if (from == step || from < whole.last)
+  if (every == 0 || step == whole.first || from < whole.last)
     run(whole.last, more);
   script().inside_run = false;
 }
@@ -349,6 +369,10 @@ bool resumes_alone() {
                       [](const auto& note) { return note.first == "fluid" && !note.second.empty(); });
 }
 
+bool forces_carry_on() {
+  return !script().set_up_anew;
+}
+
 bool keeps_checkpoints(LAMMPS* lmp) {
   return FixCheckpoint::find(lmp) != nullptr;
 }
@@ -368,6 +392,8 @@ bool stands_in_for(LAMMPS* lmp, const char* name, int narg, char** arg) {
     return false;
   if (now.goes_on)
     check_first_run(lmp);
+  else if (!now.inside_run)
+    now.set_up_anew = stands_at_end_of_run(lmp) && sets_up(narg, arg);
   if (!now.inside_run)
     now.runs.push_back(span_of(lmp, command, narg, arg, lmp->update->ntimestep));
   return false;

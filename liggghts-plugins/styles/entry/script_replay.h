@@ -34,6 +34,10 @@ std::int64_t resumed_step();
 /// That checkpoint is one of DEM without a fluid.
 bool resumes_alone();
 
+/// The run that is about to begin goes on with the forces of the checkpoint. False where the checkpoint fell on the
+/// last step of a run: the straight run has then computed the forces anew, in the set-up of its next run.
+bool forces_carry_on();
+
 /// The script writes checkpoints.
 bool keeps_checkpoints(LAMMPS_NS::LAMMPS* lmp);
 

@@ -6,6 +6,7 @@
 #include "link/stop_signal.h"
 #include "link/waiting.h"
 #include "styles/entry/fix_checkpoint.h"
+#include "styles/entry/script_replay.h"
 #include "styles/entry/style_registry.h"
 
 #include <mpi.h>
@@ -171,7 +172,7 @@ void FixFluidCouple::init() {
   if (!forces_)
     refuse("meets a fluid that nothing feels: add fix fluid/force before the run");
   forces_->announce_source(id);
-  if (resuming_)
+  if (resuming_ && styles::forces_carry_on())
     forces_->carry_on();
   bodies_ = styles::FixClusterBodies::find(lmp);
   if (domain->triclinic)

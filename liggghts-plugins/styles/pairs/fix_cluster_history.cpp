@@ -74,10 +74,10 @@ void FixClusterHistory::pre_exchange() {
   if (hand_over)
     hand_over(false);
   // Room in the buffers of migration, for what walls keep as well.
-  int most = maxsize_restart();
+  int most = largest_record();
   for (int n = 0; n < modify->nfix; ++n)
     if (std::strcmp(modify->fix[n]->style, FixWallGranCluster::inner_style) == 0)
-      most += modify->fix[n]->maxsize_restart();
+      most += static_cast<FixWallGranCluster*>(modify->fix[n])->largest_record();
   comm->maxexchange_fix = std::max(comm->maxexchange_fix, most);
 }
 
@@ -159,10 +159,17 @@ int FixClusterHistory::size_restart(int i) {
   return 2 + words_per_touch * static_cast<int>(touches_[i].size());
 }
 
-int FixClusterHistory::maxsize_restart() {
+int FixClusterHistory::largest_record() {
   int most = 2;
   for (int i = 0; i < atom->nlocal; ++i)
     most = std::max(most, size_restart(i));
+  return most;
+}
+
+// LIGGGHTS writes the first rank's value into the file, and whoever reads it has rows of this length.
+int FixClusterHistory::maxsize_restart() {
+  int most = largest_record();
+  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_INT, MPI_MAX, world);
   return most;
 }
 

@@ -64,6 +64,9 @@ class FixClusterHistory : public LAMMPS_NS::Fix {
   double memory_usage() override;
 
  private:
+  /// Doubles of the longest record of an atom of this rank.
+  int largest_record();
+
   std::vector<std::vector<Touch>> touches_;
 };
 

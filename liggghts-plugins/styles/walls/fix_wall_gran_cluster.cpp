@@ -253,8 +253,14 @@ int FixWallGranCluster::unpack_exchange(int i, double* buffer) {
 int FixWallGranCluster::size_restart(int i) {
   return 1 + history_.packed_size(i);
 }
-int FixWallGranCluster::maxsize_restart() {
+int FixWallGranCluster::largest_record() const {
   return 1 + history_.largest();
+}
+// LIGGGHTS writes the first rank's value into the file, and whoever reads it has rows of this length.
+int FixWallGranCluster::maxsize_restart() {
+  int most = largest_record();
+  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_INT, MPI_MAX, world);
+  return most;
 }
 void FixWallGranCluster::write_restart(FILE* file) {
   if (comm->me != 0)

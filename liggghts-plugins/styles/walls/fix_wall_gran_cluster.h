@@ -77,6 +77,8 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   void unpack_restart(int i, int nth) override;
   int size_restart(int i) override;
   int maxsize_restart() override;
+  /// Doubles of the longest record of an atom of this rank.
+  int largest_record() const;
   double memory_usage() override;
 
   // Range of materials, asked for by LIGGGHTS's property registry.
