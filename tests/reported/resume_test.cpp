@@ -638,8 +638,9 @@ TEST(Reported, resume_any_script_goes_on_from_any_signal) {
     fs::remove(checkpoints / "finished");
     const ProgramResult again = start(folder, annulus_foam({"-resume"}));
     EXPECT_EQ(again.status, 0) << end.where << again.output << contents(folder / "log.liggghts");
-    if (end.signal == SIGKILL)
+    if (end.signal == SIGKILL) {
       EXPECT_TRUE(says(again.output, "goes on from checkpoint " + std::to_string(end.step))) << again.output;
+    }
     EXPECT_EQ(result_of(folder), whole.result) << end.where;
   }
 }
