@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How bad input is refused: one sentence that names the keyword, its value and the remedy.
+// Refusal of invalid input in one sentence that names the keyword, its value and the remedy.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,8 +10,8 @@
 
 namespace eccentra::base {
 
-/// Throws std::invalid_argument. The sentence has the form `what: 'value' is not ...; expected ...`; whoever knows the
-/// file or the fix puts its name in front.
+/// Throws std::invalid_argument. The sentence has the form `what: 'value' is not ...; expected ...`. A
+/// caller that knows the file or the fix adds its name in front.
 template <class... Values> [[noreturn]] void refuse(fmt::format_string<Values...> sentence, Values&&... values) {
   throw std::invalid_argument(fmt::format(sentence, std::forward<Values>(values)...));
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a tool prints arrives, or the tool fails: a full disk is seen when the buffer is written.
+// Makes a tool fail if its output cannot be written, for example to a full disk.
 #pragma once
 
 #include <cerrno>
@@ -11,8 +11,8 @@
 
 namespace eccentra {
 
-/// Writes what standard output still holds. Throws std::runtime_error with one sentence if that, or a write before,
-/// failed. Call it last, where its exception still ends in the tool's own error message and exit code.
+/// Flushes the standard output. Throws std::runtime_error with one sentence if this or an earlier write failed. Call it
+/// last, where the exception still leads to the error message and the exit code of the tool.
 inline void finish_standard_output() {
   const bool failed_before = std::ferror(stdout) != 0;
   errno = 0;

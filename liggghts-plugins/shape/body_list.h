@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Places, orientations and velocities of bodies in a text file; pure, no LIGGGHTS.
+// Positions, orientations and velocities of bodies in a text file. Includes no LIGGGHTS header.
 #pragma once
 
 #include <istream>
@@ -17,8 +17,8 @@ struct ListedBody {
   double angular_velocity[3] = {0, 0, 0}; ///< world frame [rad/s]
 };
 
-/// One body a line: x y z, then w x y z of the orientation, the velocity and the angular velocity, as far as they are
-/// given: 3, 7, 10 or 13 numbers, with blanks or commas between them. # begins a comment. Throws std::invalid_argument
+/// Reads one body per line: x y z, then optionally w x y z of the orientation, the velocity and the angular velocity.
+/// A line has 3, 7, 10 or 13 numbers, separated by blanks or commas. # starts a comment. Throws std::invalid_argument
 /// with a sentence that names the file and the line.
 std::vector<ListedBody> read_body_list(std::istream& in, const std::string& file);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Spheres that stand twice, or nearly so: each would carry a contact of its own.
+// Removes repeated spheres, because each of them would have a contact of its own.
 #pragma once
 
 #include "shape/cluster_shape.h"
@@ -11,8 +11,8 @@
 
 namespace eccentra::shape {
 
-/// Leaves out spheres that repeat another within 0.1 % of its radius (of two, the larger or the earlier one stays) and
-/// says so in `notes`, as it does of spheres that come within 5 %, which stay. `where` begins each note.
+/// Removes spheres that repeat another within 0.1 % of the larger radius; of two, the larger or the earlier one stays.
+/// `notes` receives a warning about these, and about pairs within 5 %, which stay. `where` begins each note.
 void merge_coincident(std::vector<Sphere>& spheres, const std::string& where, Notes& notes);
 
 } // namespace eccentra::shape

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The convex hull of points, with no more vertices than contacts can afford.
+// The convex hull of points, with a limited number of vertices.
 #pragma once
 
 #include "shape/rounded_core.h"
@@ -9,18 +9,19 @@
 
 namespace eccentra::shape {
 
-/// Most vertices of a hull: each costs a distance in every contact that it may take part in, and a face that many
-/// vertices carry is stiffer than one that few carry.
+/// Largest number of vertices of a hull. Each vertex costs a distance in every contact that it may take part in, and a
+/// face with many vertices is stiffer than one with few.
 constexpr int max_hull_vertices = 64;
 
-/// Polyhedron of the points' convex hull; coplanar triangles are one face. Throws std::invalid_argument where the
+/// Polyhedron of the points' convex hull; coplanar triangles form one face. Throws std::invalid_argument if the
 /// points lie in a plane.
 ConvexCore convex_hull(const std::vector<Eigen::Vector3d>& points);
 
-/// The hull of at most `vertices` of the points: those that stand out farthest from the hull of the ones taken before.
+/// The hull of at most `vertices` of the points. Each point taken is the one farthest outside of the hull of the
+/// earlier ones.
 struct ThinnedHull {
   ConvexCore core;
-  double error; ///< how far at most a point stands out of it [m]
+  double error; ///< largest distance of a point outside of the hull [m]
 };
 ThinnedHull thinned_hull(const std::vector<Eigen::Vector3d>& points, int vertices = max_hull_vertices);
 

@@ -10,7 +10,7 @@
 
 namespace eccentra::shape {
 
-/// The number that `word` is, whole; nothing if it is none. Fortran's exponent D counts as E; nan and inf are numbers.
+/// The number that the whole `word` represents, or nothing. Fortran's exponent D counts as E; nan and inf are numbers.
 inline std::optional<double> decimal(std::string word) {
   if (!word.empty() && word[0] == '+')
     word.erase(0, 1);
@@ -21,7 +21,7 @@ inline std::optional<double> decimal(std::string word) {
   const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (word.empty() || word[0] == '+' || end != word.data() + word.size())
     return std::nullopt;
-  if (problem == std::errc::result_out_of_range) // from_chars does not say which way
+  if (problem == std::errc::result_out_of_range) // from_chars does not tell overflow from underflow
     return word.find("e-") != std::string::npos ? 0.0 : HUGE_VAL;
   if (problem != std::errc())
     return std::nullopt;

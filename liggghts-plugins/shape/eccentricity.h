@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shape eccentricity delta_e: how far the line of a contact's normal passes the centre of mass.
+// Shape eccentricity delta_e: distance by which the line of a contact's normal misses the centre of mass.
 #pragma once
 
 #include "shape/cluster_shape.h"
@@ -9,7 +9,7 @@
 
 namespace eccentra::shape {
 
-/// Values of delta_e / R_eq over all ways in which a shape can meet a partner. delta_e = |c x n| for the centre c of
+/// Values of delta_e / R_eq over all contacts of a shape with a partner. delta_e = |c x n| for the centre c of
 /// the sub-sphere that is touched and the contact normal n, eq (32); R_eq is the shape's own equivalent radius, eq
 /// (34).
 class EccentricityDistribution {
@@ -28,17 +28,17 @@ class EccentricityDistribution {
   double min_, mean_, max_;
 };
 
-/// Against a plane: every orientation equally likely; the plane touches the sub-sphere that reaches farthest.
+/// Against a plane. Every orientation is equally likely; the plane touches the sub-sphere that reaches farthest.
 EccentricityDistribution eccentricity_plane(const ClusterShape& shape);
 
-/// Against a sphere of radius `radius` [m] that comes straight at the centre of mass, every direction equally likely.
+/// Against a sphere of radius `radius` [m] that moves towards the centre of mass; every direction is equally likely.
 EccentricityDistribution eccentricity_sphere(const ClusterShape& shape, double radius);
 
-/// Against something small that touches every part of the surface of the union equally likely (normal to the surface).
+/// Against a small body that touches every part of the surface of the union with equal probability, along its normal.
 EccentricityDistribution eccentricity_surface(const ClusterShape& shape);
 
-/// Against another cluster that comes straight at the centre of mass, direction and both orientations equally likely;
-/// the values are those of `shape`.
+/// Against another cluster that moves towards the centre of mass; direction and both orientations are equally likely.
+/// The values are those of `shape`.
 EccentricityDistribution eccentricity_cluster(const ClusterShape& shape, const ClusterShape& other);
 
 } // namespace eccentra::shape

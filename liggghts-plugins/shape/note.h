@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What whoever named a shape may not expect.
+// Notes about a shape for the user.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace eccentra::shape {
 
-/// A sentence: what was repaired, left out, or is missing.
+/// A sentence about what was repaired, removed, or is missing.
 struct Note {
   std::string text;
-  bool warning = true; ///< false: nothing out of the ordinary
+  bool warning = true; ///< false: information only
 };
 using Notes = std::vector<Note>;
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Statistics of a quantity over all directions, with its extremes sought out from the best samples.
+// Statistics of a quantity over all directions; its extremes are found by a search from the best samples.
 #pragma once
 
 #include "shape/directions.h"
@@ -16,7 +16,8 @@
 
 namespace eccentra::shape {
 
-/// Walks from `start` to where `value` is largest, by steps in turning directions that shrink when none leads higher.
+/// Largest `value` that a search from `start` finds. Steps go in rotating directions and become shorter when none of
+/// them increases the value.
 template <typename Value> double climb(const Value& value, Eigen::Vector3d start, double best) {
   constexpr double first_step = 0.02, last_step = 1e-9; // [rad]
   constexpr int directions_per_step = 12;
@@ -54,7 +55,7 @@ template <typename Value> double extreme(const Value& value, const std::vector<d
   return sign * best;
 }
 
-/// Every direction equally likely.
+/// Distribution of `value` with every direction equally likely.
 template <typename Value> EccentricityDistribution over_directions(const Value& value) {
   constexpr int count = 50000; // mean good to 1e-4, spacing of directions 0.016 rad
   std::vector<double> samples(count);

@@ -36,8 +36,8 @@ struct ConvexCore {
   double turn(const CoreEdge& edge) const;
 };
 
-/// A core from its vertices and the corners of its faces (counter-clockwise from outside; for a polygon both ways
-/// round). Throws std::invalid_argument where the faces do not enclose a convex polyhedron.
+/// A core from its vertices and the corners of its faces (counter-clockwise from outside; for a polygon both
+/// sides). Throws std::invalid_argument if the faces do not enclose a convex polyhedron.
 ConvexCore make_core(std::vector<Eigen::Vector3d> vertices, const std::vector<std::vector<int>>& faces);
 
 /// The box with these half edges about the origin; half edges of 0 leave a polygon, a segment or a point.
@@ -53,16 +53,16 @@ struct DiskCore {
 /// Closest point of a core.
 struct CoreDistance {
   double distance;        ///< [m]; inside a core of three dimensions negative: minus the depth under the nearest face
-  Eigen::Vector3d normal; ///< unit, from the closest point to the point asked for (inside: of the nearest face)
+  Eigen::Vector3d normal; ///< unit, from the closest point to the given point (inside: of the nearest face)
 };
 CoreDistance distance_to_core(const ConvexCore& core, const Eigen::Vector3d& point);
 CoreDistance distance_to_core(const DiskCore& core, const Eigen::Vector3d& point);
 
-/// A point of the core that reaches farthest in `direction`.
+/// A point of the core that is farthest in `direction`.
 Eigen::Vector3d support_of_core(const ConvexCore& core, const Eigen::Vector3d& direction);
 Eigen::Vector3d support_of_core(const DiskCore& core, const Eigen::Vector3d& direction);
 
-/// Least distance of two parallel planes that hold the core between them [m].
+/// Smallest distance of two parallel planes that enclose the core [m].
 double least_width(const ConvexCore& core);
 
 } // namespace eccentra::shape

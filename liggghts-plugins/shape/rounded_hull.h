@@ -21,13 +21,13 @@ class RoundedHull {
  public:
   using Core = std::variant<ConvexCore, DiskCore>;
 
-  /// Body frame and properties as they are, for a body that has been one before.
+  /// Properties of a body in its body frame, for a body that is restored.
   struct Properties {
     double volume, surface, contact_radius;
     Eigen::Vector3d inertia_per_mass;
   };
   RoundedHull(std::string name, const Core& core, double radius, const Properties& properties);
-  /// Takes the core in any frame (a disk in its own) and turns it into the body frame. `radius` of the ball [m].
+  /// Takes the core in any frame (a disk in its own) and transforms it into the body frame. `radius` of the ball [m].
   RoundedHull(std::string name, const Core& core, double radius);
 
   const std::string& name() const { return name_; }
@@ -36,12 +36,12 @@ class RoundedHull {
   const ConvexCore* polyhedron() const { return std::get_if<ConvexCore>(&core_); }
   const DiskCore* disk() const { return std::get_if<DiskCore>(&core_); }
   double radius() const { return radius_; } ///< of the ball: of all corners and edges [m]
-  /// Radius with which a contact of this body enters Hertz's law [m]; the rounding radius unless it is set.
+  /// Radius of this body in the contact law of Hertz [m]; the rounding radius unless it is set.
   double contact_radius() const { return contact_radius_; }
   void set_contact_radius(double radius) { contact_radius_ = radius; }
 
   /// The core's vertices; of a disk, points on its rims, first those above. Each is the centre of a ball of `radius`
-  /// that the body contains; on planes and in holes polyhedra touch at these alone.
+  /// that the body contains; on planes and in holes polyhedra touch only at these.
   std::vector<Eigen::Vector3d> points() const;
 
   double volume() const { return volume_; }   ///< [m3]
@@ -54,9 +54,9 @@ class RoundedHull {
   double bounding_radius() const { return bounding_radius_; } ///< about the centre of mass [m]
   double sphericity() const;                                  ///< eq (5) [-]
 
-  /// A point of the core that reaches farthest in `direction`; the body's own is `radius` farther.
+  /// A point of the core that is farthest in `direction`; the surface of the body is `radius` farther.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
-  /// Distance of a point from the core; the body's own is `radius` less.
+  /// Distance of a point from the core [m]; its distance from the body is `radius` less.
   CoreDistance distance_to_core(const Eigen::Vector3d& point) const;
 
   /// Area of the shadow along `direction` (any length > 0) [m2], and its mean over all directions.
@@ -72,7 +72,7 @@ class RoundedHull {
   double bounding_radius_;
 };
 
-/// Points on each rim of a disk, which carry its friction and bear it where it lies flat.
+/// Number of points on each rim of a disk, at which friction acts and on which a disk lies.
 constexpr int points_on_rim = 12;
 
 /// The same core, all lengths times `scale`.

@@ -10,7 +10,7 @@ namespace eccentra::shape {
 
 /// Steiner's formulas, and their counterparts for the first and second moments: the body is the core, a prism on each
 /// face, a wedge of a cylinder on each edge and a sector of a ball on each vertex. Sums over the wedges' arcs on the
-/// unit sphere give the moments of the sectors. Exact but for round-off. Frame of the core.
+/// unit sphere give the moments of the sectors. Exact to round-off. Frame of the core; lengths in m.
 MassProperties rounded_mass(const ConvexCore& core, double radius);
 
 /// The same for a disk, by slices across its axis, whose integrals are elementary.

@@ -10,9 +10,9 @@
 
 namespace eccentra::shape {
 
-/// All that makes the body, to the last bit, but for its name.
+/// All data of the body, bit for bit, without its name.
 std::vector<double> record_of(const RoundedHull& hull);
-/// The same body again.
+/// The body of a record.
 RoundedHull hull_of_record(const std::string& name, const std::vector<double>& record);
 
 } // namespace eccentra::shape

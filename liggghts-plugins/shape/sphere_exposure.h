@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which part of one sphere's surface its neighbours leave free, latitude by latitude.
+// The part of a sphere's surface that its neighbours do not cover, by circles of latitude.
 #pragma once
 
 #include "shape/cluster_shape.h"
@@ -26,7 +26,7 @@ class SphereExposure {
  public:
   SphereExposure(const std::vector<Sphere>& spheres, std::size_t index);
 
-  /// True if a single neighbour holds the whole sphere; such a sphere has no free part.
+  /// True if a single neighbour contains the whole sphere, which then has no free part.
   bool swallowed() const { return swallowed_; }
   /// Sorted heights in [-1, 1] (unit sphere) between which the free arcs move smoothly; first -1, last 1.
   std::vector<double> break_heights() const;

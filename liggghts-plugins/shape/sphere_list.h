@@ -10,7 +10,7 @@
 
 namespace eccentra::shape {
 
-/// What a text file says about spheres.
+/// Contents of a text file of spheres.
 struct SphereList {
   std::vector<Sphere> spheres;
   std::vector<std::string> keys; ///< lines that begin with "#:", without these two characters

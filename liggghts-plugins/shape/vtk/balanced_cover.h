@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Spheres that stand out of a solid as much as they leave of it.
+// Grows spheres until their union has the volume of a solid.
 #pragma once
 
 #include "shape/cluster_shape.h"
@@ -9,8 +9,8 @@
 
 namespace eccentra::shape {
 
-/// Grows all radii by one length [units of the spheres], which is returned, so that the union has the volume `volume`;
-/// that of the spheres given must be smaller.
+/// Increases all radii by one length [unit of the spheres], which is returned, so that the union has the volume
+/// `volume`. The volume of the given spheres must be smaller.
 double grow_to_volume(std::vector<Sphere>& spheres, double volume);
 
 } // namespace eccentra::shape

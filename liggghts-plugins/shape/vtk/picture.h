@@ -10,13 +10,13 @@
 
 namespace eccentra::shape {
 
-/// Writes the surfaces of the unions, side by side where there are several, with delta_e/R_eq and the sub-sphere's
-/// number at each point. The file's ending chooses the format: .vtp or .vtk. Throws std::invalid_argument where it
+/// Writes the surfaces of the unions, side by side if there are several, with delta_e/R_eq and the sub-sphere's
+/// number at each point. The file's ending chooses the format: .vtp or .vtk. Throws std::invalid_argument if the file
 /// cannot be written.
 void write_surface(const std::vector<ClusterShape>& shapes, const std::string& path);
 
-/// Draws the shapes side by side at equal scale, coloured by delta_e/R_eq, into a PNG file. Starts Xvfb for itself, as
-/// Debian's VTK draws only with an X server. Throws std::invalid_argument where that or the file fails.
+/// Draws the shapes side by side at equal scale, coloured by delta_e/R_eq, into a PNG file. Starts Xvfb, because
+/// Debian's VTK draws only with an X server. Throws std::invalid_argument if this or the file fails.
 void write_picture(const std::vector<ClusterShape>& shapes, const std::string& path);
 
 } // namespace eccentra::shape

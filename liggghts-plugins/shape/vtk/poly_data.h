@@ -12,8 +12,8 @@ namespace eccentra::shape {
 
 vtkSmartPointer<vtkPolyData> poly_data(const Surface& surface);
 
-/// Maps a box around the surface to size 1 about the origin: VTK's locators have absolute tolerances, with which bodies
-/// of millimetres are found slowly or not at all.
+/// Maps the bounding box to size 1 about the origin, because VTK's locators have absolute tolerances that are too large
+/// for bodies of millimetres.
 struct UnitFrame {
   explicit UnitFrame(const Surface& surface);
   Eigen::Vector3d middle;
@@ -22,7 +22,7 @@ struct UnitFrame {
   Surface to_unit(const Surface& surface) const;
 };
 
-/// The triangles of `data`; other cells are left out.
+/// The triangles of `data`; other cells are ignored.
 Surface surface_of(vtkPolyData* data);
 
 } // namespace eccentra::shape

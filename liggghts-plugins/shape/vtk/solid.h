@@ -17,13 +17,13 @@ namespace eccentra::shape {
 class Solid {
  public:
   /// Reads an ASCII or binary STL file and multiplies its lengths by `scale`. What can be repaired in one way only
-  /// (repeated and degenerate facets, facets that face the wrong way, corners that differ by round-off) is, and notes()
-  /// says so. Throws std::invalid_argument with one sentence that says what the surface is where it is not that of one
-  /// solid: open, several solids, crossing itself, without volume, and so on.
+  /// (repeated and degenerate facets, facets that face the wrong way, corners that differ by round-off) is repaired and
+  /// listed in notes(). Throws std::invalid_argument with one sentence that names the defect if the surface is not that
+  /// of one solid: open, several solids, crossing itself, without volume, and so on.
   Solid(const std::string& path, double scale);
 
   const std::string& path() const { return path_; }
-  /// What was repaired, and what a user may not expect; one sentence each.
+  /// Repairs and other remarks for the user; one sentence each.
   const Notes& notes() const { return notes_; }
   /// Of the solid, in the frame of the file, exact for its triangles.
   const MassProperties& properties() const { return properties_; }
@@ -34,7 +34,7 @@ class Solid {
 
   /// Distance to the surface [m], negative inside.
   double distance(const Eigen::Vector3d& point) const;
-  /// True inside, by winding numbers: slower than the sign of distance(), and independent of it.
+  /// True inside, by winding numbers; slower than the sign of distance() and independent of it.
   bool holds(const Eigen::Vector3d& point) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shapes from STL files, and how well so many spheres do for the solid.
+// Shapes from STL files, and the deviation of the spheres from the solid.
 #pragma once
 
 #include "shape/cluster_shape.h"
@@ -12,13 +12,13 @@
 
 namespace eccentra::shape {
 
-/// Whose mass, centre and inertia a body made of a solid has.
+/// Source of mass, centre and inertia of a body that is made of a solid.
 enum class MassOf { solid, spheres };
 
-/// Whether spheres stay inside the solid, or all grow until their union has its volume.
+/// Whether spheres stay inside the solid, or all grow until their union has the volume of the solid.
 enum class Cover { inside, balanced };
 
-/// What the arguments `stl NAME ...` ask for.
+/// The arguments of `stl NAME ...`.
 struct StlRequest {
   std::string path;
   InscribedOptions options;
@@ -32,12 +32,12 @@ struct StlRequest {
 /// std::invalid_argument.
 StlRequest read_stl_request(const std::vector<std::string>& arguments, std::size_t first, std::size_t& used);
 
-/// The spheres asked for. Throws std::invalid_argument where they lack more of the volume of the solid than
-/// `max_missing` and `error` allow, or where they do not lie in the solid.
+/// The spheres of a request. Throws std::invalid_argument if they lack more of the volume of the solid than
+/// `max_missing` and `error` allow, or if they do not lie in the solid.
 std::vector<Sphere> cover_of(const Solid& solid, const StlRequest& request);
 
-/// The shape of these spheres, sized so that the volume of `mass_of` is that of a sphere of `diameter` [m] (<= 0: as it
-/// is). Adds the notes of the solid, how much of the volume the spheres hold, and whether lengths may be
+/// The shape of these spheres, sized so that the volume of `mass_of` is that of a sphere of `diameter` [m] (<= 0: the
+/// size of the file). Adds the notes of the solid, how much of the volume the spheres hold, and whether lengths may be
 /// millimetres.
 ClusterShape shape_of_solid(const Solid& solid, std::vector<Sphere> spheres, const StlRequest& request, double diameter,
                             Notes& notes);
@@ -46,7 +46,7 @@ ClusterShape shape_of_solid(const Solid& solid, std::vector<Sphere> spheres, con
 struct FitQuality {
   int spheres;
   double volume;                      ///< missing part of the volume
-  double protrusion;                  ///< how far a sphere stands out of the solid at most
+  double protrusion;                  ///< largest length by which a sphere stands out of the solid
   double inertia;                     ///< norm of the difference of the inertia tensors per mass, own centres
   double mean_distance, max_distance; ///< from the solid's surface to the spheres
   double mean_eccentricity;           ///< delta_e / R_eq on a plane: value of the spheres less that of the solid
@@ -59,11 +59,11 @@ struct SolidEccentricity {
 };
 SolidEccentricity solid_eccentricity(const Solid& solid);
 
-/// `own` is solid_eccentricity(solid), which is worth keeping for the next call.
+/// `own` is solid_eccentricity(solid), which the caller keeps for several calls.
 FitQuality fit_quality(const Solid& solid, const SolidEccentricity& own, const std::vector<Sphere>& spheres,
                        MassOf mass_of);
 
-/// Makes the family `stl`, which needs VTK, known to make_shape. Call once at start.
+/// Adds the family `stl`, which needs VTK, to the table of families. Call once at start.
 void install_stl_keywords();
 
 } // namespace eccentra::shape

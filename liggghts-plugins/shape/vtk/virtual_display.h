@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An X server of our own that nobody sees, for as long as a picture is drawn.
+// An invisible X server for the time in which a picture is drawn.
 #pragma once
 
 #include <sys/types.h>
@@ -9,8 +9,8 @@
 
 namespace eccentra::shape {
 
-/// Starts Xvfb on a free display and points DISPLAY at it; the destructor ends it and restores DISPLAY. Where Xvfb is
-/// not installed a DISPLAY that is set already serves; without either the constructor throws std::invalid_argument.
+/// Starts Xvfb on a free display and points DISPLAY at it; the destructor ends it and restores DISPLAY. If Xvfb is
+/// not installed, a DISPLAY that is set is used. Without either the constructor throws std::invalid_argument.
 class VirtualDisplay {
  public:
   VirtualDisplay();
