@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One effect of the fluid on the particles: a loop over local atoms around one closure. Those that are off do not
-// exist.
+// One effect of the fluid on the particles: a loop over local atoms around one closure. No object exists for an effect
+// that is off.
 #pragma once
 
 #include "closures/numbers.h"
@@ -15,7 +15,7 @@ namespace eccentra::closures {
 
 struct ShapeFactors;
 
-/// The shapes of a scene as effects see them. A "kind" numbers all particles that share a shape.
+/// The shapes of a scene, for effects. A "kind" is the number of a shape that particles share.
 class ShapeCatalogue {
  public:
   virtual ~ShapeCatalogue() = default;
@@ -41,14 +41,14 @@ struct HalfStep {
   const int* mask = nullptr;
   int group = 0;      ///< bit of the atoms that feel the fluid
   int integrated = 0; ///< bits of the atoms that a fix integrates
-  int frozen = 0;     ///< bits of the atoms that are held: they load the fluid, and receive no force
+  int frozen = 0;     ///< bits of the atoms that do not move: they load the fluid and receive no force
   double gravity[3] = {0.0, 0.0, 0.0};
   link::FluidSamples samples;
   double (*impulse)[3] = nullptr;
   double* drag_coefficient = nullptr;
   double (*last)[4] = nullptr; ///< drag and lifts of this half step [N], and the linearised drag [kg/s]
 
-  /// interval/m: how far a force moves the velocity of atom i; 0 if nothing can move it.
+  /// interval/m [s/kg], the change of velocity of atom i by a force; 0 if nothing can move it.
   double compliance(int i) const { return (mask[i] & integrated) && !(mask[i] & frozen) ? interval / mass[i] : 0.0; }
   /// Adds a force that the fluid receives with opposite sign (drag and lifts: S_f of eq 2).
   void exchange(int i, const double* f, double coefficient) const {
@@ -61,7 +61,7 @@ struct HalfStep {
   }
 };
 
-/// Where a closure was measured: a dimensionless number of the particle and its range.
+/// Range of validity of a closure in a dimensionless number of the particle.
 struct Validity {
   Number number;
   double low, high;
@@ -71,17 +71,17 @@ class Effect {
  public:
   virtual ~Effect() = default;
   virtual const char* name() const = 0;
-  /// What it is counted as: all drag laws are "drag".
+  /// Name in tables: all drag laws are "drag".
   virtual const char* slot() const { return name(); }
   /// Quantities of the fluid that the closure reads.
   virtual unsigned needs() const = 0;
-  /// Prepares what depends on shapes only; called at set-up.
+  /// Prepares data that depend on shapes only; called at set-up.
   virtual void prepare(const ShapeCatalogue&) {}
   virtual void apply(const HalfStep& half_step) = 0;
   /// True if it acts on spins (HalfStep::torque), false if on velocities (HalfStep::force).
   virtual bool is_torque() const { return false; }
   virtual std::vector<Validity> validity() const { return {}; }
-  /// Slot of an effect that must act wherever this one does, or null.
+  /// Slot of an effect that must be on if this one is, or null.
   virtual const char* requires_slot() const { return nullptr; }
 
   /// Sum over this rank's particles of the force (or torque) of the last half step, world frame.

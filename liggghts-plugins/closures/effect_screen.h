@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Measures what each effect does in a scene and says which of them are worth keeping.
+// Measures each effect in a scene and decides which of them are kept.
 #pragma once
 
 #include "closures/effect.h"
@@ -17,8 +17,8 @@ namespace eccentra::closures {
 
 /// During a measurement every effect is on. Forces are compared with the larger of submerged weight and drag of the
 /// same particle; the rotational drag with the sum of all other torques on it. The effects with the smallest 95 %
-/// values are dropped as long as what is dropped stays, added up, below the tolerance; what another needs stays with
-/// it.
+/// values are dropped as long as the sum of the dropped values stays below the tolerance. An effect that another one
+/// needs stays with it.
 class EffectScreen {
  public:
   EffectScreen(const ScreenOptions& options, const EffectList& effects);
@@ -27,13 +27,13 @@ class EffectScreen {
   /// True while measuring (every effect is on).
   bool measuring() const { return measuring_; }
   bool sample_now() const { return measuring_ && done_ % stride_ == 0; }
-  /// Applies all effects like a plain half step, and keeps what each of them did.
+  /// Applies all effects like a half step without a screen, and records the force of each.
   void apply(const HalfStep& half_step, const EffectList& effects, const Rheology& fluid);
-  /// Counts a step; true when a measurement has just ended or is due to begin: ask measuring().
+  /// Counts a step. True if a measurement has just ended or must begin; measuring() tells which.
   bool step();
   /// Begins a measurement.
   void start();
-  /// Ends a measurement: one flag per effect, true keeps it. The same on all ranks.
+  /// Ends a measurement. One flag per effect, true: kept. The same on all ranks; collective.
   std::vector<bool> decide(MPI_Comm ranks, const EffectList& effects);
   /// The table of the last measurement; nanoseconds per particle and step of each effect as measured elsewhere.
   std::string table(const EffectList& effects, const std::vector<bool>& keep,
@@ -45,7 +45,7 @@ class EffectScreen {
   std::size_t load(const double* state, bool with_sums);
 
  private:
-  /// What one effect was seen to do.
+  /// Record of one effect.
   struct Measure {
     LogHistogram to_weight, to_drag, to_reference;
   };

@@ -12,8 +12,8 @@ namespace eccentra::closures {
 
 /// A resistance R(U) = area * X(U/length) * G(Re), Re = inertia * U^2 / X: drag (U a slip speed) with area (pi/8) d^2,
 /// or rotational drag (U a relative spin). `Stress` is X, `Law` is the reduced coefficient G = C_D Re with slope
-/// dG/dRe. The form has no 0/0: at rest R = area * X(0) * G(0), the yield resistance. A law with kAffine says G =
-/// viscous() + plateau() Re, and needs no Re at all.
+/// dG/dRe. The form has no 0/0: at rest R = area * X(0) * G(0), the yield resistance. A law with kAffine has G =
+/// viscous() + plateau() Re and needs no Re.
 template <class Stress, class Law> struct Resistance {
   Stress stress;
   Law law;
@@ -46,7 +46,7 @@ template <class Stress, class Law> struct Resistance {
 /// square, far below that of the time step; what is exchanged is exact for any tolerance.
 constexpr double kNewtonTolerance = 1e-3;
 constexpr int kNewtonLimit = 100;
-/// Where Newton leaves its bracket and nothing is known below, the next trial is this part of what is known above.
+/// If a Newton step leaves its bracket and there is no lower bound, the next trial is this part of the upper bound.
 constexpr double kBracketShrink = 0.1;
 
 /// Slip speed after a step and the resistance that acted during it.
@@ -57,9 +57,8 @@ struct ImplicitSlip {
 
 /// Solves speed + compliance * R(speed) = free_slip for speed >= 0. Exactly 0 where the yield resistance holds the
 /// particle (compliance * R(0) >= free_slip): the return mapping of a yield stress.
-/// free_slip > 0: speed without the resistance; compliance: dt/m, 0 for what nothing can move; guess: any, best the
-/// speed before.
-/// Inlined by order: the loops around it are short enough to feel a call.
+/// free_slip > 0: speed without the resistance; compliance: dt/m, 0 for a body that nothing can move; guess: any value,
+/// best the previous speed. Always inlined, because a call costs much in the short loops around it.
 template <class R>
 [[gnu::always_inline]] inline ImplicitSlip implicit_slip(const R& resistance, double free_slip, double compliance,
                                                          double guess) {

@@ -54,8 +54,8 @@ struct OesterleBuiDinh {
 /// Ratio of |w_f| d (or |Om| d) to the slip below which a lift is set to zero: the force tends to zero with it.
 constexpr double kNegligibleShear = 1e-12;
 
-/// Eq (26): F_S = (pi/8) rho d^3 C_LS (u x w_f) [N]; u = u_f - u_p slip, vorticity w_f = curl u_f, viscosity as the
-/// particle meets it. A particle that lags is driven to the faster side.
+/// Eq (26): F_S = (pi/8) rho d^3 C_LS (u x w_f) [N]; u = u_f - u_p slip, vorticity w_f = curl u_f, viscosity mu_p of
+/// rheology.h. A particle that is slower than the fluid moves to the faster side.
 inline void shear_lift_force(double density, double viscosity, double d, const double* slip, const double* vorticity,
                              double* force) {
   const double speed = base::norm(slip);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Distribution of a positive quantity over many decades; integer counts make its quantiles the same on any ranks.
+// Distribution of a positive quantity over many decades. Integer counts give the same quantiles on any number of ranks.
 #pragma once
 
 #include <mpi.h>
@@ -23,7 +23,7 @@ class LogHistogram {
     sum_ += capped;
     largest_ = std::max(largest_, capped);
   }
-  /// Sums up all ranks; every rank then holds the whole.
+  /// Sums over all ranks; each rank then has the result. Collective.
   void merge(MPI_Comm ranks) {
     MPI_Allreduce(MPI_IN_PLACE, counts_.data(), kBins, MPI_INT64_T, MPI_SUM, ranks);
     MPI_Allreduce(MPI_IN_PLACE, &sum_, 1, MPI_DOUBLE, MPI_SUM, ranks);
@@ -37,7 +37,7 @@ class LogHistogram {
   }
   double mean() const { return count() ? sum_ / double(count()) : 0.0; }
   double largest() const { return largest_; }
-  /// Value that this part of all stays below; resolved to a bin (5 %), its upper edge.
+  /// Quantile: the upper edge of its bin (5 %).
   double quantile(double part) const {
     const double wanted = part * double(count());
     std::int64_t below = 0;

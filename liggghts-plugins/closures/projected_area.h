@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The area that a cluster shows to a flow, by direction: what an oriented drag law needs.
+// Projected area of a cluster by direction, for oriented drag laws.
 #pragma once
 
 #include "shape/cluster_shape.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The torques of eq (32) of many contacts side by side: one contact alone waits for its own results most of the time.
+// Torques of eq (32) of many contacts at once, because a single contact is a long chain of dependent operations.
 #pragma once
 
 #include "contact/support_table.h"
@@ -9,7 +9,7 @@
 
 namespace eccentra::contact {
 
-/// Sides of contacts (a contact has one per particle) that wait for their torques. World frame, SI.
+/// Sides of contacts (a contact has one per particle) whose torques are pending. World frame, SI.
 class EccentricBatch {
  public:
   static constexpr int kCapacity = 64; ///< a multiple of the lanes; all of it stays in the first-level cache
@@ -34,7 +34,7 @@ class EccentricBatch {
     drag_[m] = damping * radius;
   }
 
-  /// Calls apply(particle, torque [N m] as double[3]) for each side, in the order in which they came, and forgets them.
+  /// Calls apply(particle, torque [N m] as double[3]) for each side in the order of their addition, and removes them.
   template <class Apply> void evaluate(const SupportTable& shape, Apply&& apply) {
     fill_torques(shape);
     for (int m = 0; m < size_; ++m) {

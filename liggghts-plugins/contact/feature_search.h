@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which features of two near bodies can touch soon.
+// Search for the features of two near bodies that can touch soon.
 #pragma once
 
 #include "contact/manifold.h"
@@ -10,7 +10,7 @@
 namespace eccentra::contact {
 
 /// Finds the features of A and B that touch, or may do so once the bodies have moved by `skin` [m] relative to each
-/// other, as feature_id in ascending order. Returns the relative motion that cannot bring anything else into touch.
+/// other, as feature_id in ascending order. Returns the relative motion [m] up to which no other features can touch.
 class FeatureSearch {
  public:
   double search(const BodyPair& pair, double skin);

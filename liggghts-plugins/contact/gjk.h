@@ -7,8 +7,8 @@
 
 namespace eccentra::contact {
 
-/// Distance of the cores [m], 0 where they overlap; `offset` from A's centre to B's. For insertion, where a pair is
-/// asked for once: contacts find their points by features.
+/// Distance of the cores [m], 0 if they overlap; `offset` from A's centre to B's. Insertion uses it, where a pair is
+/// examined once; contacts find their points by features.
 double gjk_distance(const PosedCore& a, const PosedCore& b, const Eigen::Vector3d& offset);
 
 } // namespace eccentra::contact

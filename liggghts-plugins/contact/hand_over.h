@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How one spring is handed over between a line and its ends; pure.
+// Weights with which a contact passes from a line to its ends. Pure functions.
 #pragma once
 
 #include <algorithm>
@@ -8,10 +8,10 @@
 
 namespace eccentra::contact {
 
-/// Weights below this are none.
+/// Weights below this count as zero.
 constexpr double no_weight = 1e-9;
 
-/// x^(5/2): a Hertz spring's energy but for its stiffness.
+/// x^(5/2), the energy of a Hertz spring without its stiffness.
 inline double spring_energy(double overlap) {
   return overlap * overlap * std::sqrt(overlap);
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sums over the lanes of four arrays at once: one after the other they cost as much as the arithmetic before them.
+// Sums over the elements of four vectors at once, which is faster than four single sums.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@ inline Eigen::Vector4d lane_sums(const EightLanes& a, const EightLanes& b, const
     const Eigen::Array4d sum = v.head<4>() + v.tail<4>();
     out = Four{sum[0], sum[1], sum[2], sum[3]};
   };
-  // Neighbouring lanes of u and v added, side by side: u0 + u1, v0 + v1, u2 + u3, v2 + v3.
+  // Sums of neighbouring elements of u and v: u0 + u1, v0 + v1, u2 + u3, v2 + v3.
   const auto pairs = [](const Four& u, const Four& v, Four& out) {
     out = __builtin_shufflevector(u, v, 0, 4, 2, 6) + __builtin_shufflevector(u, v, 1, 5, 3, 7);
   };
@@ -33,7 +33,7 @@ inline Eigen::Vector4d lane_sums(const EightLanes& a, const EightLanes& b, const
   return {sums[0], sums[1], sums[2], sums[3]};
 }
 
-/// The largest lane.
+/// The largest element.
 inline double largest_lane(const EightLanes& v) {
   const Eigen::Array4d four = v.head<4>().max(v.tail<4>());
   const Eigen::Array2d two = four.head<2>().max(four.tail<2>());

@@ -7,8 +7,8 @@
 
 namespace eccentra::contact {
 
-/// Along `normal`, which leads from B to A, the cores are `separation` apart; negative: they overlap, and moving A by
-/// so much along the normal frees it.
+/// The cores are `separation` [m] apart along `normal`, which points from B to A. A negative value is the distance by
+/// which A must move along the normal until the cores do not overlap.
 struct SeparatingAxis {
   double separation;
   Eigen::Vector3d normal;
@@ -22,7 +22,7 @@ double separation_along(const PosedCore& a, const PosedCore& b, const Eigen::Vec
 /// to the other's centre). The cores' distance is at least the separation.
 SeparatingAxis best_face_axis(const PosedCore& a, const PosedCore& b, const Eigen::Vector3d& offset);
 
-/// The same with the directions across an edge of each: the true separation of polyhedra that overlap.
+/// The same, also with the directions across one edge of each core: the exact separation of polyhedra that overlap.
 SeparatingAxis least_axis(const PosedCore& a, const PosedCore& b, const Eigen::Vector3d& offset);
 
 } // namespace eccentra::contact

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which sub-spheres of a shape a contact in a given direction can touch, found without looking at all of them. Pure.
+// Table of the sub-spheres of a shape that a contact in a given direction can touch. Pure functions.
 #pragma once
 
 #include "contact/lane_sums.h"
@@ -15,12 +15,12 @@
 
 namespace eccentra::contact {
 
-/// Eight sub-spheres side by side, in units of the particle's radius; places that are not taken reach nowhere.
+/// Eight sub-spheres in structure-of-arrays form, in units of the particle's radius; unused places never touch.
 struct SphereBlock {
   using Lanes = EightLanes;
   static constexpr int kLanes = Lanes::SizeAtCompileTime;
   Lanes x, y, z, r;
-  /// How far each reaches in direction d, c . d + r.
+  /// Distance that each reaches in direction d, c . d + r.
   Lanes along(const Eigen::Vector3d& d) const { return x * d[0] + y * d[1] + z * d[2]; }
   Lanes reach(const Eigen::Vector3d& d) const { return along(d) + r; }
 };
@@ -32,15 +32,15 @@ struct ContactLoad {
   Eigen::Vector3d across; ///< n x omega, n the direction of the force: c . across is a normal velocity over R [1/s]
 };
 
-/// Depths outside these bounds, in units of the radius, count as the bound: at none the furthest sub-sphere carries
-/// all.
+/// Depths outside these bounds, in units of the radius, count as the bound. With depth 0 the furthest sub-sphere
+/// carries the whole force.
 constexpr double kShallowestShare = 1e-9;
 constexpr double kDeepestShare = 0.01;
 
 /// Sum over the sub-spheres that carry a contact of c times its part of the load, in units of R: without drag F_n r_c /
 /// R of eq (32). A flat partner in unit direction d (from the centre towards the partner; same frame as the blocks)
 /// overlaps the furthest sub-sphere by `depth`, in units of R; those that it overlaps, too, share the force in
-/// proportion to their overlap. Face on, a cube thus stands on all corners of a face, not on one.
+/// proportion to their overlap. A cube on its face therefore stands on all corners of the face.
 inline Eigen::Vector3d carried_moment(const SphereBlock* begin, const SphereBlock* end, const Eigen::Vector3d& d,
                                       double depth, const ContactLoad& load) {
   using Lanes = SphereBlock::Lanes;
@@ -64,15 +64,15 @@ inline Eigen::Vector3d carried_moment(const SphereBlock* begin, const SphereBloc
   return sums.head<3>() * (1.0 / sums[3]);
 }
 
-/// Built once per shape, in units of its equivalent radius R_eq; directions in the body frame. Knows only the
-/// sub-spheres that are furthest in some direction, the corners of the convex hull of the shape: those that lie between
-/// others on a flat face or straight edge add nothing to how far it reaches.
+/// Built once per shape, in units of its equivalent radius R_eq; directions in the body frame. Contains
+/// only the sub-spheres that are furthest in some direction, the corners of the convex hull of the shape. Sub-spheres
+/// between others on a flat face or a straight edge are never the furthest.
 class SupportTable {
  public:
   explicit SupportTable(const shape::ClusterShape& shape);
 
   const std::vector<shape::Sphere>& corners() const { return corners_; }
-  /// So few corners that looking at each beats looking up which.
+  /// Number of corners up to which a test of each is faster than the table.
   bool few() const { return corners_.size() <= static_cast<std::size_t>(kFewCorners); }
   /// carried_moment of this shape.
   Eigen::Vector3d moment(const Eigen::Vector3d& d, double depth, const ContactLoad& load) const;
@@ -80,7 +80,7 @@ class SupportTable {
   Eigen::Vector3d arm(const Eigen::Vector3d& d, double depth) const {
     return moment(d, depth, {1.0, 0.0, Eigen::Vector3d::Zero()});
   }
-  /// How far the shape reaches in direction d, max(c . d + r), in units of R_eq.
+  /// Distance that the shape reaches in direction d, max(c . d + r), in units of R_eq.
   double reach(const Eigen::Vector3d& d) const;
 
   static constexpr int kFewCorners = 4 * SphereBlock::kLanes;

@@ -9,9 +9,9 @@
 
 namespace eccentra::contact {
 
-/// The turn of one body is a long chain of operations, each of which waits for the one before: side by side they take
-/// little longer than one alone. Structure of arrays, whole vectors, so that rounding does not depend on a body's
-/// place. Unused places hold anything finite.
+/// The rotation of one body is a chain of dependent operations, so that several bodies at once take little longer than
+/// one. Structure of arrays with whole vectors, so that rounding does not depend on the place of a body. Unused places
+/// contain any finite values.
 struct alignas(64) TurningBlock {
   static constexpr int width = 8;
   using Row = double[width];
@@ -19,7 +19,7 @@ struct alignas(64) TurningBlock {
   Row angle[3] = {};    ///< in: rotation vector in world [rad], short enough for turns_in_block()
   Row quaternion[4];    ///< in and out: w x y z, body to world
   Row matrix[9];        ///< out: the same rotation, row-major
-  int body[width] = {}; ///< whose places these are
+  int body[width] = {}; ///< index of the body at each place
   int count = 0;        ///< places in use
 
   TurningBlock() {
@@ -29,7 +29,7 @@ struct alignas(64) TurningBlock {
   }
 };
 
-/// True where the series of sinc_cos() holds, as in any reasonable time step.
+/// True if the series of sinc_cos() is exact to round-off, as in any reasonable time step.
 inline bool turns_in_block(const double* angle) {
   constexpr double longest = 0.04; // four times the limit of the square of half the angle
   return angle[0] * angle[0] + angle[1] * angle[1] + angle[2] * angle[2] < longest;
@@ -50,7 +50,7 @@ inline void turn_all(TurningBlock& b) {
     const double qw = p * a - x * i - y * j - z * k, qx = p * i + x * a + y * k - z * j;
     const double qy = p * j - x * k + y * a + z * i, qz = p * k + x * j - y * i + z * a;
     const double square = qw * qw + qx * qx + qy * qy + qz * qz;
-    // Within a time step only round-off has to go: there one step of Newton's is exact to the last digit.
+    // Within a time step only round-off is removed, for which one Newton step is exact to the last digit.
     constexpr double newton_limit = 1e-8; // the error is 3/8 of its square
     const double newton = 1.5 - 0.5 * square, exact = 1 / std::sqrt(square);
     const double scale = std::fabs(square - 1) < newton_limit ? newton : exact;

@@ -12,7 +12,7 @@
 
 namespace eccentra::contact {
 
-/// gap[k] [m] for k < spheres.count, negative where sub-sphere k overlaps the wall. `x` is the body's centre,
+/// gap[k] [m] for k < spheres.count, negative if sub-sphere k overlaps the wall. `x` is the body's centre,
 /// `rotation` its row-major matrix from body to world. Directions of the wall are turned into the body frame once, so
 /// that a sub-sphere costs one (plane) or two (cylinder) scalar products.
 inline void wall_gaps(const WallSurface& wall, const Eigen::Vector3d& x, const Eigen::Matrix3d& rotation,

@@ -10,15 +10,15 @@
 
 namespace eccentra::contact {
 
-/// Where a point stands with respect to a wall. World frame, metres.
+/// Position of a point relative to a wall. World frame, metres.
 struct WallPoint {
   double distance;        ///< from the point to the wall, >= 0
   Eigen::Vector3d normal; ///< unit vector from the wall to the point
 };
 
-/// A plane or a circular cylinder that may turn about its axis and slide along itself. A particle is outside or inside
-/// (above or below) by where its centre is: the same cylinder is a pipe for what is outside and a hole for what is
-/// inside.
+/// A plane or a circular cylinder that may turn about its axis and slide along itself. The position of its
+/// centre decides whether a particle is outside or inside (above or below): a cylinder is a pipe for particles outside
+/// and a hole for particles inside.
 class WallSurface {
  public:
   /// A plane through `point`; `normal` of any length > 0.
@@ -50,7 +50,7 @@ class WallSurface {
   /// Velocity of the wall's material at point x of the wall.
   Eigen::Vector3d velocity_at(const Eigen::Vector3d& x) const { return velocity_ + omega_.cross(x - reference_); }
 
-  /// Distance alone: what an early-out needs.
+  /// Distance [m] without the normal.
   double distance(const Eigen::Vector3d& x) const {
     const Eigen::Vector3d from_reference = x - reference_;
     const double along = from_reference.dot(direction_);
@@ -60,7 +60,7 @@ class WallSurface {
   }
 
   /// A point on the plane itself counts as above it. On the axis of a cylinder no normal exists: the distance is the
-  /// radius and the normal is arbitrary, which matters to no particle that is smaller than the hole.
+  /// radius and the normal is arbitrary. A particle smaller than the hole does not touch there.
   WallPoint nearest(const Eigen::Vector3d& x) const {
     const Eigen::Vector3d from_reference = x - reference_;
     const double along = from_reference.dot(direction_);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How evenly the ranks of DEM were loaded over the coupling steps of a run.
+// Load balance of the ranks of the DEM side over the coupling steps of a run.
 #pragma once
 
 #include "link/fluid_peer.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What rank 0 learns from the link reaches the other ranks of its side; they sleep while they wait.
+// Broadcasts the result of the link from rank 0 to the other ranks of its side, which sleep while they wait.
 #pragma once
 
 #include "link/socket/wire.h"
@@ -12,7 +12,7 @@
 
 namespace eccentra::link {
 
-/// Waits for a request with short naps instead of spinning: rank 0 may itself be waiting for minutes.
+/// Waits for a request with short sleeps instead of spinning, because rank 0 may wait for minutes.
 void wait_asleep(MPI_Request& request);
 
 int rank_of(MPI_Comm ranks);
@@ -20,12 +20,12 @@ int size_of(MPI_Comm ranks);
 
 /// Ends a wait when another rank of this side has failed.
 using Look = std::function<void()>;
-/// Runs `work` on every rank, which calls its Look several times a second while it waits for the other side. Returns
-/// what it returned on each rank. What it throws on one becomes the same Refusal on every rank: that of the lowest of
-/// those that failed by themselves. Collective.
+/// Runs `work` on every rank; it calls its Look several times a second while it waits for the other side. Returns the
+/// result of each rank. An exception on one rank becomes the same Refusal on every rank: that of the lowest rank that
+/// failed by itself. Collective.
 std::vector<long long> on_all(MPI_Comm ranks, const std::function<long long(const Look&)>& work);
 
-/// Runs `work` on rank 0, and broadcasts what it returns; a Refusal there becomes the same Refusal on every rank.
+/// Runs `work` on rank 0, and broadcasts the result. A Refusal there becomes the same Refusal on every rank.
 /// Collective.
 wire::Bytes on_root(MPI_Comm ranks, const std::function<wire::Bytes()>& work);
 

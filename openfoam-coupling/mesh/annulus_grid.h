@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points of an orthogonal grid in the cross-section of an eccentric annulus. No host types.
+// Points of an orthogonal grid in the cross-section of an eccentric annulus. Includes no OpenFOAM header.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ struct AnnulusSection {
   double area() const; ///< of the exact annulus [m2]
 };
 
-/// Where the vertices of a wall lie: on its circle, or slightly outside such that the polygon has the circle's area. A
-/// polygon of 48 chords on the circle is 0.3 % smaller, which widens the narrow gap of an eccentric annulus.
+/// Position of the vertices of a wall: on its circle, or slightly outside such that the polygon has the circle's area.
+/// A polygon of 48 chords on the circle is 0.3 % smaller, which widens the narrow gap of an eccentric annulus.
 enum class WallVertices { kOnCircle, kEqualArea };
 
 struct GridOptions {

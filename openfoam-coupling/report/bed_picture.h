@@ -7,8 +7,8 @@
 
 namespace eccentra::report {
 
-/// One column per case, as it lies in the world (gravity points down): above, the half of the hole behind the plane
-/// through both axes taken away; below, the cross-section at half length. All in one scale of length and of colour.
+/// One column per case, with gravity pointing down: above, a side view cut at the plane through both axes; below, the
+/// cross-section at half length. All have the same scale of length and of colour.
 /// Writes a PNG. Needs a display (shape::VirtualDisplay).
 void draw_beds(const std::vector<Case>& cases, const std::filesystem::path& file);
 

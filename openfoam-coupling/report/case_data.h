@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a case folder holds: geometry and gravity, the table of the coupled run, particles at the times written.
+// Contents of a case folder: geometry and gravity, the table of the coupled run, particles at the written times.
 #pragma once
 
 #include "report/section_measures.h"
@@ -25,8 +25,8 @@ struct Table {
   bool has(const std::string& name) const { return columns.count(name) != 0; }
 };
 
-/// Reads comma-separated values under one line of names. A last line that is cut short (the run still writes it) is
-/// left out. Throws std::runtime_error with one sentence that names file, line and value where a value is not a number.
+/// Reads comma-separated values under one line of names. An incomplete last line (the run still writes it) is
+/// ignored. Throws std::runtime_error with one sentence that names file, line and value if a value is not a number.
 Table read_csv(const std::filesystem::path& file);
 
 /// A file of particles: bodies, or the sub-spheres of bodies, as points.
@@ -42,7 +42,7 @@ struct Case {
   double inclination = 0;            ///< degrees from the vertical
   Table run;                         ///< postProcessing/eccentra/coupling.csv
   std::vector<ParticleFile> bodies;  ///< one point per body: velocity, and mass and density, or the radius of a sphere
-  std::vector<ParticleFile> spheres; ///< what to draw: sub-spheres where bodies are clusters, else `bodies`
+  std::vector<ParticleFile> spheres; ///< to draw: sub-spheres if bodies are clusters, else `bodies`
 };
 
 /// Throws std::runtime_error with one sentence that names the file, the keyword and the remedy.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a render window to a PNG.
+// Writes a render window to a PNG file.
 #pragma once
 
 #include <vtkPNGWriter.h>

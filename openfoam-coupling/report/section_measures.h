@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a section of annulus holds: concentration over the height, bed height, solid flux. Pure functions.
+// Measures of a section of annulus: concentration over the height, bed height, solid flux. Pure functions.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ struct Snapshot {
 
 /// Solid volume fraction in layers of equal thickness across the hole, from the low side (layer 0) to the high side.
 /// `up`: unit vector in the x-y plane, towards the high side. Each body counts as the sphere of its volume, cut exactly
-/// at the layers' bounds; what of it would lie outside the hole counts for the outermost layer.
+/// at the bounds of the layers; a part outside of the hole counts for the outermost layer.
 /// Throws std::invalid_argument if `layers` is 0.
 std::vector<double> concentration_profile(const Section& section, const Snapshot& snapshot,
                                           const std::array<double, 2>& up, std::size_t layers);
@@ -38,7 +38,7 @@ std::vector<double> concentration_profile(const Section& section, const Snapshot
 std::vector<double> layer_volumes(const Section& section, const std::array<double, 2>& up, std::size_t layers);
 
 /// Height above the hole's low side at which the concentration, coming from below, falls through half of what a bed of
-/// random loose packing holds (0.55 / 2), interpolated between layer centres; 0 where no layer is that dense.
+/// random loose packing holds (0.55 / 2), interpolated between layer centres; 0 if no layer is that dense.
 double bed_height(const std::vector<double>& profile, double hole_diameter);
 
 /// Mean solid volume fraction: sum V / section volume.

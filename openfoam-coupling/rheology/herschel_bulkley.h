@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Viscosity of a Herschel-Bulkley fluid, regularised in two ways. Pure functions; no host types.
+// Viscosity of a Herschel-Bulkley fluid, regularised in two ways. Pure functions without OpenFOAM headers.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace eccentra::rheology {
 
-/// tau = tau0 + k g^n where it yields. Any consistent units: dynamic (Pa, Pa s^n) or over density (m2/s2, m2/s^(2-n)).
+/// tau = tau0 + k g^n in yielded fluid. Any consistent units: dynamic (Pa, Pa s^n) or over density (m2/s2, m2/s^(2-n)).
 struct HerschelBulkley {
   double tau0; ///< yield stress >= 0
   double k;    ///< consistency > 0

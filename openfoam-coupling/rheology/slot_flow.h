@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reynolds number of Metzner and Reed for an annulus taken as a slot. Pure functions; no host types.
+// Reynolds number of Metzner and Reed for an annulus taken as a slot. Pure functions
+// without OpenFOAM headers.
 #pragma once
 
 #include "rheology/herschel_bulkley.h"
@@ -17,7 +18,7 @@ inline double slot_velocity(const HerschelBulkley& fluid, double gap, double exc
   return 0.5 * gap * n / (n + 1) * std::pow(excess / fluid.k, 1 / n) * sheared * (1 - n / (2 * n + 1) * sheared);
 }
 
-/// The stress at the plates for this mean velocity >= 0; tau0 where nothing flows.
+/// The stress at the plates for this mean velocity >= 0; tau0 without flow.
 inline double slot_wall_stress(const HerschelBulkley& fluid, double gap, double velocity) {
   if (!(velocity > 0)) {
     return fluid.tau0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Folders of files that are there in full or not at all, with checksums; what each side of a checkpoint is made of.
+// Folders of files with checksums that exist completely or not at all. Each side of a checkpoint consists of them.
 #pragma once
 
 #include "link/terms.h"
@@ -17,20 +17,20 @@ namespace eccentra::link {
 /// Further facts of a manifest: a word and the rest of its line (no line breaks).
 using Notes = std::vector<std::pair<std::string, std::string>>;
 
-/// A new folder of files. They gather in `folder`.tmp; commit() brings them to the disk, writes the manifest and
-/// renames. All members throw Refusal with one sentence where the disk does not take what it is given.
+/// A new folder of files. The files are written in `folder`.tmp; commit() flushes them to the disk, writes the manifest
+/// and renames the folder. All members throw Refusal with one sentence if the disk cannot be written.
 class DurableFolder {
  public:
   explicit DurableFolder(std::string folder);
   DurableFolder(const DurableFolder&) = delete;
   DurableFolder& operator=(const DurableFolder&) = delete;
-  /// Removes what was not committed.
+  /// Removes the files if they were not committed.
   ~DurableFolder();
 
   /// Writes one file and waits until it is on the disk.
   void add(const std::string& name, const void* data, std::size_t bytes);
-  /// Writes the manifest, the folder itself, and gives it its name; a folder of that name goes. Returns the checksum of
-  /// the manifest.
+  /// Writes the manifest, flushes the folder and renames it; an existing folder of that name is removed. Returns the
+  /// checksum of the manifest.
   std::uint32_t commit(const CheckpointMark& mark, const Notes& notes = {});
 
  private:
@@ -39,7 +39,7 @@ class DurableFolder {
   bool committed_ = false;
 };
 
-/// What a manifest or record says.
+/// Contents of a manifest or record.
 struct Manifest {
   CheckpointMark mark;
   Notes notes;
@@ -49,11 +49,11 @@ struct Manifest {
   std::string note(const std::string& name) const;
 };
 
-/// The manifest of a committed folder if every file is there with its size and checksum; else nothing, and in `why`
-/// (may be null) what is wrong in one sentence.
+/// The manifest of a committed folder if every file has its size and checksum. Else nothing, and `why` (may be null)
+/// receives the reason in one sentence.
 std::optional<Manifest> check_folder(const std::string& folder, std::string* why = nullptr);
 
-/// A single small file, replaced in one go. Throws Refusal.
+/// Writes a single small file, which replaces an earlier one at once. Throws Refusal.
 void write_record(const std::string& path, const CheckpointMark& mark, const Notes& notes);
 std::optional<Manifest> read_record(const std::string& path, std::string* why = nullptr);
 

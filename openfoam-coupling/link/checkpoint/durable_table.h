@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A table that grows by rows of text on a disk that may be full for a while: no row is lost, none is written in part.
+// A table of text rows on a disk that may be full for a while: no row is lost, and none is written in part.
 #pragma once
 
 #include <string>
@@ -10,25 +10,25 @@ namespace eccentra::link {
 
 class DurableTable {
  public:
-  /// Begins a table, or goes on with the rows that are there of first column up to `last` (`goes_on`); a table with
-  /// rows and another heading, or of a run that this one does not continue, is kept beside. Throws Refusal where the
-  /// file cannot be opened.
+  /// Begins a table, or continues an existing one (`goes_on`) after its rows with a first column up to `last`. A table
+  /// with rows and another heading, or of a run that this one does not continue, is renamed. Throws Refusal if the file
+  /// cannot be opened.
   DurableTable(std::string path, std::string heading, bool goes_on, double last);
   DurableTable(const DurableTable&) = delete;
   DurableTable& operator=(const DurableTable&) = delete;
   ~DurableTable();
 
-  /// Adds a row without its end of line. Rows that the disk does not take are kept in memory and tried again.
+  /// Adds a row without its end of line. Rows that cannot be written are kept in memory and tried again.
   void add(const std::string& row);
-  /// Brings what is there to the disk.
+  /// Flushes the table to the disk.
   void sync();
   /// Rows in the file.
   long long rows() const { return rows_; }
-  /// Rows that the disk has not taken yet.
+  /// Rows that could not be written yet.
   const std::vector<std::string>& pending() const { return pending_; }
-  /// Why not.
+  /// The reason.
   const std::string& problem() const { return problem_; }
-  /// Whatever a user should know: one sentence each. Empties the list.
+  /// Messages for the user, one sentence each. Empties the list.
   std::vector<std::string> take_messages();
 
  private:

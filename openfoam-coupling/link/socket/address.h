@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the two sides of a socket link meet.
+// The address of a socket link.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace eccentra::link {
 
-/// How long the link waits [s].
+/// Timeouts of the link [s].
 struct Timeout {
-  double silence = 5.0; ///< until a peer that does not answer any more counts as lost
-  double arrival = 5.0; ///< until a peer that has not come yet counts as missing
+  double silence = 5.0; ///< without an answer until a peer counts as lost
+  double arrival = 5.0; ///< until a peer that has not connected counts as missing
 };
 
-/// Where, and with which keys.
+/// Address and keys.
 struct Address {
   std::string arguments; ///< ipc:///path, a plain path, or tcp://host:port
   std::string keys;      ///< folder of the keys (link/keys.h); empty: none
@@ -31,10 +31,10 @@ struct Address {
 };
 
 /// The endpoint that the arguments name. Throws Refusal with one sentence for anything else, and for an address that
-/// other machines reach where there are no keys.
+/// other machines reach if there are no keys.
 std::string endpoint_of(const Address& address);
 
-/// Whether only programs of this machine reach it: a Unix socket or loopback. Of an address that endpoint_of accepts.
+/// True if only programs of this machine reach it (a Unix socket or loopback). For an address that endpoint_of accepts.
 bool is_of_this_machine(const Address& address);
 
 /// Throws Refusal unless both times are positive and finite.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tells ZeroMQ whose key may join (its authentication protocol, RFC 27/ZAP).
+// Authentication of the keys of a ZeroMQ socket (RFC 27/ZAP).
 #pragma once
 
 #include <memory>
@@ -12,8 +12,8 @@ class context_t;
 
 namespace eccentra::link {
 
-/// Admits the owner of one public key to the sockets of a context, and nobody else. Answers in a thread of its own, so
-/// that a side that computes can still be joined. Must be there before the sockets bind, and go before the context.
+/// Admits only the owner of one public key to the sockets of a context. Answers in a thread of its own, so that a peer
+/// can connect while this side computes. Must be constructed before the sockets bind and destroyed before the context.
 class KeyGuard {
  public:
   KeyGuard(zmq::context_t& context, const std::string& allowed_public);
