@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The documentation as a site: scripts/docs builds it."""
+import inspect
 import pathlib
 import re
 
@@ -20,6 +21,17 @@ exclude_patterns = ["README.md"]
 html_theme = "furo"
 html_title = f"Eccentra {release}"
 html_math_renderer = "mathml"
+# The pages of programs are their man pages, too.
+man_pages = [(name, name, summary, "", 1) for name, summary in {
+    "annulusFoam": "flow of a yield-stress fluid in an annulus, alone or with particles",
+    "annulusMesh": "mesh of an inclined eccentric annulus",
+    "annulusReport": "tables, charts and pictures of coupled cases",
+    "clusterShape": "make, measure, compare and draw shapes of particles",
+    "dragLaw": "drag coefficients of the drag laws of fix fluid/force",
+    "eccentra-dem": "LIGGGHTS with the styles of Eccentra",
+    "eccentra-keys": "keys of the two sides of a socket link",
+    "eccentra-run": "run a coupled case, or continue its run",
+}.items()]
 html_static_path = ["_static"]
 html_css_files = ["eccentra.css"]
 html_show_sphinx = False
@@ -29,9 +41,12 @@ highlight_language = "none"
 
 
 # Formulas are MathML in the page, which needs neither a script nor a network. The converter of docutils aligns rows without `aligned`.
+BLOCK = {"inline": False} if "inline" in inspect.signature(tex2mathml).parameters else {"as_block": True}  # docutils 0.20 and later
+
+
 def block_of(formula):
     rows = re.sub(r"\\(begin|end){aligned}", "", formula)
-    return f'<div class="formula">{tex2mathml(rows, inline=False)}</div>'
+    return f'<div class="formula">{tex2mathml(rows, **BLOCK)}</div>'
 
 
 def show(render):
