@@ -3,6 +3,8 @@
 // Text, JSON and LIGGGHTS lines about shapes.
 #include "tools/shape_report.h"
 
+#include "shape/resistance_cache.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -39,6 +41,41 @@ std::string number(double value) {
   return fmt::format("{:.6g}", value);
 }
 
+nlohmann::json to_json(const Eigen::Matrix3d& m) {
+  return {to_json(m.row(0).transpose().eval()), to_json(m.row(1).transpose().eval()),
+          to_json(m.row(2).transpose().eval())};
+}
+
+Eigen::Vector3d jeffery_periods(const Resistance& r) {
+  return {r.jeffery_period(0), r.jeffery_period(1), r.jeffery_period(2)};
+}
+
+nlohmann::json to_json(const Resistance& r, double d) {
+  return {{"translation", to_json(r.translation)},
+          {"rotation", to_json(r.rotation)},
+          {"coupling", to_json(r.coupling)},
+          {"bretherton", to_json(r.bretherton())},
+          {"jeffery_period", to_json(jeffery_periods(r))},
+          {"centre", to_json((d * r.centre).eval())}};
+}
+
+std::string to_text(const Resistance& r, double d) {
+  std::string text = fmt::format("  in creeping flow, by body axis {:>14} {:>10} {:>10}\n", "x", "y", "z");
+  const auto row = [&](const char* label, const Eigen::Vector3d& v) {
+    text += fmt::format("    {:<31} {:>10} {:>10} {:>10}\n", label, number(v[0]), number(v[1]), number(v[2]));
+  };
+  row("K, of the sphere's drag", r.translation.diagonal());
+  row("K_rot, of the sphere's torque", r.rotation.diagonal());
+  row("B, spin by strain", r.bretherton());
+  row("Jeffery's period times rate", jeffery_periods(r));
+  row("centre of resistance, m", d * r.centre);
+  const auto off = [](const Eigen::Matrix3d& m) { return (m - Eigen::Matrix3d(m.diagonal().asDiagonal())).norm(); };
+  if (off(r.translation) + off(r.rotation) > 0)
+    text += fmt::format("    off the diagonal: K {:.3g}, K_rot {:.3g}; coupling {:.3g} (--json has all of it)\n",
+                        off(r.translation), off(r.rotation), r.coupling.norm());
+  return text;
+}
+
 /// What a table shows of one shape: label, value, unit.
 struct Row {
   std::string label;
@@ -67,6 +104,16 @@ std::vector<Row> rows_of(const ShapeReport& r) {
       {"inertia / (0.4 R_eq^2), y", inertia.y() / sphere_inertia, ""},
       {"inertia / (0.4 R_eq^2), z", inertia.z() / sphere_inertia, ""},
   };
+  const char* axes[] = {"x", "y", "z"};
+  const Eigen::Vector3d b = r.resistance.bretherton(), period = jeffery_periods(r.resistance);
+  for (int k = 0; k < 3; ++k)
+    rows.push_back({fmt::format("K, {}", axes[k]), r.resistance.translation(k, k), ""});
+  for (int k = 0; k < 3; ++k)
+    rows.push_back({fmt::format("K_rot, {}", axes[k]), r.resistance.rotation(k, k), ""});
+  for (int k = 0; k < 3; ++k)
+    rows.push_back({fmt::format("B, {}", axes[k]), b[k], ""});
+  for (int k = 0; k < 3; ++k)
+    rows.push_back({fmt::format("Jeffery's period * rate, {}", axes[k]), period[k], ""});
   for (const auto& [name, d] : partners_of(r)) {
     rows.push_back({fmt::format("delta_e/R_eq on {}, min", name), d->min(), ""});
     rows.push_back({fmt::format("delta_e/R_eq on {}, mean", name), d->mean(), ""});
@@ -84,6 +131,7 @@ ShapeReport measure(const ClusterShape& shape, const ClusterShape& partner) {
           eccentricity_surface(shape),
           eccentricity_cluster(shape, partner),
           partner.name(),
+          cached_resistance(shape),
           {}};
 }
 
@@ -140,6 +188,7 @@ nlohmann::json to_json(const ShapeReport& r) {
           {"sphericity", s.sphericity()},
           {"centre", to_json(s.given_centre())},
           {"inertia", to_json(s.inertia_per_mass())},
+          {"resistance", to_json(r.resistance, 2 * s.equivalent_radius())},
           {"eccentricity", eccentricity},
           {"eccentricity_partner", r.partner},
           {"mu_shape", default_mu_shape(r)}};
@@ -148,9 +197,11 @@ nlohmann::json to_json(const ShapeReport& r) {
 std::string to_text(const ShapeReport& r) {
   std::string text = fmt::format("{}\n", r.shape.name());
   for (const Row& row : rows_of(r)) {
-    if (row.label.rfind("delta_e", 0) != 0)
-      text += fmt::format("  {:<28} {:>13} {}\n", row.label, number(row.value), row.unit);
+    if (row.label.rfind("K, ", 0) == 0)
+      break; // below, by axis
+    text += fmt::format("  {:<28} {:>13} {}\n", row.label, number(row.value), row.unit);
   }
+  text += to_text(r.resistance, 2 * r.shape.equivalent_radius());
   text += fmt::format("  shape eccentricity delta_e/R_eq\n    {:<9}", "met by");
   for (const char* head : {"min", "5 %", "25 %", "median", "75 %", "95 %", "max", "mean"})
     text += fmt::format(" {:>7}", head);

@@ -6,6 +6,7 @@
 #include "shape/cluster_shape.h"
 #include "shape/eccentricity.h"
 #include "shape/note.h"
+#include "shape/resistance.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -20,6 +21,7 @@ struct ShapeReport {
   ClusterShape shape;
   EccentricityDistribution plane, sphere, surface, cluster;
   std::string partner; ///< name of the cluster met
+  Resistance resistance;
   Notes notes;
 };
 
@@ -29,7 +31,7 @@ ShapeReport measure(const ClusterShape& shape, const ClusterShape& partner);
 double default_mu_shape(const ShapeReport& report);
 
 /// JSON object with the keys name, spheres, volume, equivalent_radius, bounding_radius, sphericity, centre, inertia,
-/// eccentricity, mu_shape and more of the same kind; SI units, eccentricities in units of R_eq.
+/// eccentricity, mu_shape, resistance and more of the same kind; SI units, eccentricities in units of R_eq.
 nlohmann::json to_json(const ShapeReport& report);
 
 /// Table for people.
