@@ -98,7 +98,7 @@ class Group:
         reference, rows = self.rows[-1], self.candidates()
         if math.isnan(reference.value) or not rows:
             ended = "failed" if any(row.failed for row in self.rows) else "were not run"
-            return f"{self.title} ({self.body}): no comparison, as the reference or all other levels {ended}."
+            return f"{self.title} ({self.body}): no comparison, because the reference or all other levels {ended}."
         share = abs(reference.error / reference.value) * 100 if reference.value else math.nan
         text = [f"{self.title} ({self.body}): the reference {reference.level.name} gives {tables.number(reference.value)} +- "
                 f"{tables.number(reference.error, 2)} {self.unit} in {tables.number(reference.cpu)} s."]
@@ -106,21 +106,21 @@ class Group:
         if near:
             best = near[0]
             ratio = reference.cpu / best.cpu
-            text.append(f"Within {PERCENT:g} % of it, the cheapest is {best.level.name} ({best.deviation:+.1%} +- "
-                        f"{best.deviation_error:.1%}); it costs {tables.number(ratio, 2)} times less.")
+            text.append(f"Within {PERCENT:g} % of it, the cheapest is {best.level.name} ({100 * best.deviation:+.1f} +- "
+                        f"{100 * best.deviation_error:.1f} %); it is {tables.number(ratio, 2)} times as fast.")
             if best.deviation_error * 100 > PERCENT:
-                text.append("Its standard error is larger than that: more seeds are needed to be sure.")
+                text.append("The standard error is larger, so that more seeds are needed to be sure.")
         else:
             best = min(rows, key=lambda row: abs(row.deviation))
-            text.append(f"No other level is within {PERCENT:g} % of it; the nearest is {best.level.name} ({best.deviation:+.1%} +- "
-                        f"{best.deviation_error:.1%}), at {tables.number(best.cpu / reference.cpu, 2)} of the time.")
+            text.append(f"No other level is within {PERCENT:g} % of it; the nearest is {best.level.name} ({100 * best.deviation:+.1f} +- "
+                        f"{100 * best.deviation_error:.1f} %), at {tables.number(best.cpu / reference.cpu, 2)} of the time.")
         plain = next((row for row in rows if row.level.kind == "sphere"), None)
         if plain and plain is not best:
             ratio = tables.number(plain.cpu / reference.cpu, 2)
-            text.append(f"The plain sphere is off by {plain.deviation:+.0%} at {ratio} of the time.")
+            text.append(f"The plain sphere deviates by {100 * plain.deviation:+.0f} % at {ratio} of the time.")
         front, bend = self.front()
         if bend:
-            text.append(f"The knee of the Pareto front is {bend.level.name}: beyond it time buys little.")
+            text.append(f"The knee of the Pareto front is {bend.level.name}.")
         if share > PERCENT:
             text.append(f"The reference itself is known to {share:.0f} % only.")
         return " ".join(text)
@@ -260,7 +260,7 @@ class Study:
                 lines += [f"{group.title} [{group.unit}], {group.body}: {min((row.runs for row in group.rows if row.runs), default=0)} seed(s) or more", "",
                           tables.text(header, table), words, ""]
                 if group.candidates() or any(row.failed for row in group.rows):
-                    page += [words + "\n"]
+                    page += [f"- {words[0].upper()}{words[1:]}\n"]
             for row in group.rows:
                 cells.append([group.scene, group.body, group.title, group.unit, row.level.name, row.value, row.error, row.runs, row.deviation,
                               row.deviation_error, row.cpu, row.wall, *(row.parts[part] for part in timing.PARTS), row.step,
@@ -331,8 +331,8 @@ class Study:
     def overall_words(self, body, groups):
         points, _, bend = self.overall_points(groups)
         reference = groups[0].rows[-1].level.name
-        told = ", ".join(f"{level.name} {error:.0f} % at {share:.2f} of the time" for level, (share, error) in points.items())
-        return (f"{body.capitalize()}, median over {len(groups)} scenes of the deviation from {reference}: {told}."
+        told = "; ".join(f"{level.name} {error:.0f} % at {share:.2f} of the time" for level, (share, error) in points.items())
+        return (f"**{body.capitalize()}.** Median over {len(groups)} scenes of the deviation from {reference}: {told}."
                 + (f" The knee of the Pareto front is {bend.name}." if bend else "") + "\n")
 
     def overall(self, groups):
@@ -361,7 +361,7 @@ class Study:
                 elif math.isnan(of.deviation):
                     row.append(f"{tables.number(of.value)} {group.unit}; {tables.number(of.cpu, 2)} s ({of.runs})")
                 else:
-                    row.append(f"{of.deviation:+.0%} +- {of.deviation_error:.0%}; {tables.number(of.cpu, 2)} s ({of.runs})")
+                    row.append(f"{100 * of.deviation:+.0f} +- {100 * of.deviation_error:.0f} %; {tables.number(of.cpu, 2)} s ({of.runs})")
             rows.append(row)
         return rows
 

@@ -59,7 +59,7 @@ def _plain_words(rows):
         return ""
     best, worst = min(near, key=lambda row: row["cpu"]), max(near, key=lambda row: row["deviation"][1])
     return (f"Within {PERCENT:g} % of {reference['name']} in the pressure gradient, the cheapest is {best['name']} "
-            f"({best['deviation'][0]:+.1%}): {tables.number(reference['cpu'] / best['cpu'], 2)} times less time. "
+            f"({100 * best['deviation'][0]:+.1f} %), which is {tables.number(reference['cpu'] / best['cpu'], 2)} times as fast. "
             f"A deviation is known to {100 * worst['deviation'][1]:.1f} % here.\n")
 
 
@@ -125,7 +125,7 @@ class Study:
                          for g, h in zip(gradient, height)]
                 title = f"{inclination} degrees, {VELOCITY} m/s: {what}"
                 lines += [title, "", tables.text(header, table)]
-                page += [f"{title}\n", tables.markdown(header, table), _plain_words(gradient)]
+                page += [f"### {title}\n", tables.markdown(header, table), _plain_words(gradient)]
                 panels.append(self.panel(inclination, family, gradient, reference))
         if missing:
             page.append(f"Not run: {'; '.join(missing)}.\n")
