@@ -24,7 +24,7 @@ struct PressureField {
   double density;
   /// -grad p_rgh; the fluid has its opposite in alpha grad p already (model A).
   double operator()(const HalfStep& half_step, int i, int k) const {
-    return -half_step.samples.pressure_gradient[i][k];
+    return -half_step.samples.pressure_gradient()[i][k];
   }
 };
 
@@ -33,7 +33,7 @@ struct StressField {
   static constexpr unsigned kNeeds = link::kStressDivergence;
   double density;
   /// div tau; with it, -grad p_rgh is the whole stress of model A on the particle.
-  double operator()(const HalfStep& half_step, int i, int k) const { return half_step.samples.stress_divergence[i][k]; }
+  double operator()(const HalfStep& half_step, int i, int k) const { return half_step.samples.stress_divergence()[i][k]; }
 };
 
 template <class Field> class BodyForce : public Effect {

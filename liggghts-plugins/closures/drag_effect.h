@@ -48,7 +48,7 @@ template <class Stress, class Law> class DragEffect : public Effect {
       double slip[3], free[3], f[3];
       double slip2 = 0.0, free2 = 0.0;
       for (int k = 0; k < 3; ++k) {
-        slip[k] = half_step.samples.velocity[i][k] - half_step.velocity[i][k];
+        slip[k] = half_step.samples.velocity()[i][k] - half_step.velocity[i][k];
         free[k] = slip[k] - compliance * half_step.force[i][k];
         slip2 += slip[k] * slip[k];
         free2 += free[k] * free[k];
@@ -57,7 +57,7 @@ template <class Stress, class Law> class DragEffect : public Effect {
         continue;
       const double free_speed = std::sqrt(free2);
       DragPlace place;
-      place.fraction = std::clamp(half_step.samples.fraction[i], kDragFractionFloor, 1.0);
+      place.fraction = std::clamp(half_step.samples.fraction()[i], kDragFractionFloor, 1.0);
       if constexpr (Law::kOriented)
         place.crosswise = shapes_->crosswise_sphericity(i, free);
       const auto law = laws[half_step.kind[i]].in(place);

@@ -24,7 +24,7 @@ class Lift : public Effect {
         continue;
       double slip[3], f[3];
       for (int k = 0; k < 3; ++k)
-        slip[k] = half_step.samples.velocity[i][k] - half_step.velocity[i][k];
+        slip[k] = half_step.samples.velocity()[i][k] - half_step.velocity[i][k];
       const double speed = base::norm(slip);
       if (!(speed > 0.0))
         continue;
@@ -53,7 +53,7 @@ class ShearLift : public Lift {
   }
   void apply(const HalfStep& half_step) override {
     for_each(half_step, [&](int i, double viscosity, double d, const double* slip, double* f) {
-      shear_lift_force(fluid_.density, viscosity, d, slip, half_step.samples.vorticity[i], f);
+      shear_lift_force(fluid_.density, viscosity, d, slip, half_step.samples.vorticity()[i], f);
     });
   }
 };
@@ -72,7 +72,7 @@ class RotationalLift : public Lift {
     for_each(half_step, [&](int i, double viscosity, double d, const double* slip, double* f) {
       double spin[3];
       for (int k = 0; k < 3; ++k)
-        spin[k] = 0.5 * half_step.samples.vorticity[i][k] - half_step.spin[i][k];
+        spin[k] = 0.5 * half_step.samples.vorticity()[i][k] - half_step.spin[i][k];
       rotational_lift_force(fluid_.density, viscosity, d, slip, spin, f);
     });
   }

@@ -40,12 +40,12 @@ template <class Stress> class RotationalDrag : public Effect {
       if (!newtonian_) {
         double slip[3];
         for (int k = 0; k < 3; ++k)
-          slip[k] = half_step.samples.velocity[i][k] - half_step.velocity[i][k];
+          slip[k] = half_step.samples.velocity()[i][k] - half_step.velocity[i][k];
         slip_rate = base::norm(slip) / d;
       }
       double spin[3], free[3];
       for (int k = 0; k < 3; ++k) {
-        spin[k] = 0.5 * half_step.samples.vorticity[i][k] - half_step.spin[i][k];
+        spin[k] = 0.5 * half_step.samples.vorticity()[i][k] - half_step.spin[i][k];
         free[k] = spin[k] - compliance * half_step.torque[i][k];
       }
       const double free_spin = base::norm(free);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Means of pressure gradient and stress divergence over the steps of an interval.
+// Means of the force densities over the steps of an interval.
 #include "coupled/appliedForces.H"
 
 #include "link/flow_quantities.h"
@@ -9,27 +9,30 @@ namespace eccentra {
 
 using namespace Foam;
 
-appliedForces::appliedForces(const averagedFlow& flow, unsigned asked)
-    : flow_(flow), pressure_(asked & link::kPressureGradient), stress_(asked & link::kStressDivergence) {}
+namespace {
+
+/// As the flow has it at present [N/m3].
+tmp<volVectorField> densityOf(const averagedFlow& flow, link::Quantity quantity) {
+  return quantity == link::kPressureGradient ? flow.pressureGradient() : flow.stressDivergence();
+}
+
+} // namespace
+
+appliedForces::appliedForces(const averagedFlow& flow, unsigned asked) : flow_(flow), asked_(asked) {}
 
 void appliedForces::add(const volScalarField& alpha, scalar part) {
-  if (pressure_)
-    pressureMean_.add(flow_.pressureGradient(), alpha, part);
-  if (stress_)
-    stressMean_.add(flow_.stressDivergence(), alpha, part);
+  for (const auto& [quantity, sign] : exchange::kForceDensities)
+    if (asked_ & quantity)
+      mean_[quantity].add(densityOf(flow_, quantity), alpha, part);
 }
 
 void appliedForces::complete(const volScalarField& alpha, scalar part, exchange::FlowFields& fields) {
-  if (pressure_) {
-    pressureGradient_ = flow_.pressureGradient();
-    pressureMean_.complete(pressureGradient_.ref(), alpha, part);
-    fields.pressureGradient = &pressureGradient_().primitiveField();
-  }
-  if (stress_) {
-    stressDivergence_ = flow_.stressDivergence();
-    stressMean_.complete(stressDivergence_.ref(), alpha, part);
-    fields.stressDivergence = &stressDivergence_().primitiveField();
-  }
+  for (const auto& [quantity, sign] : exchange::kForceDensities)
+    if (asked_ & quantity) {
+      density_[quantity] = densityOf(flow_, quantity);
+      mean_[quantity].complete(density_[quantity].ref(), alpha, part);
+      fields.density[quantity] = &density_[quantity]().primitiveField();
+    }
 }
 
 } // namespace eccentra

@@ -29,8 +29,6 @@ using namespace Foam;
 
 namespace {
 
-constexpr unsigned kOffered =
-    link::kVelocity | link::kFraction | link::kPressureGradient | link::kStressDivergence | link::kVorticity;
 /// Meetings from one report to the next.
 constexpr label kReportEvery = 10;
 
@@ -191,7 +189,7 @@ link::FluidTerms coupledRun::agree(const link::DemTerms& dem) {
   link::FluidTerms terms;
   terms.time_step = interval_;
   terms.domain = extentsOf(mesh_);
-  terms.offered = kOffered;
+  terms.offered = exchange::particleExchange::offered();
   terms.fluid_density = flow_->rho();
   terms.rheology = statedRheology(flow_->rheology(), flow_->rho());
   stateGravity(mesh_, terms);

@@ -47,11 +47,9 @@ void coupledRun::returnDifference(const scalarField& assumedSolid, const exchang
     return;
   const scalarField more((solid_ - assumedSolid) / flow_->rho());
   vectorField& force = flow_->particleForce().primitiveFieldRef();
-  // The force on a particle is -V grad p, and V div tau.
-  if (fields.pressureGradient)
-    force += more * *fields.pressureGradient;
-  if (fields.stressDivergence)
-    force -= more * *fields.stressDivergence;
+  for (const auto& [quantity, sign] : exchange::kForceDensities)
+    if (const vectorField* density = fields.density[quantity])
+      force -= sign * more * *density;
   flow_->particleForce().correctBoundaryConditions();
 }
 
@@ -77,10 +75,9 @@ int coupledRun::exchangeAhead(const link::CouplingStep& couplingStep, const link
     present = std::make_unique<appliedForces>(*flow_, couplingStep.needed);
     present->complete(flow_->alpha(), 1, fields);
   }
-  if (!samples.pressure_gradient)
-    fields.pressureGradient = nullptr;
-  if (!samples.stress_divergence)
-    fields.stressDivergence = nullptr;
+  for (const auto& [quantity, sign] : exchange::kForceDensities)
+    if (!samples[quantity])
+      fields.density[quantity] = nullptr;
   const tmp<volVectorField> velocity(flow_->velocityOfFluxes());
   fields.velocity = &velocity();
   fields.fraction = &flow_->alpha();

@@ -3,9 +3,8 @@
 // Deposit and sample, with the same weights.
 #include "exchange/particleExchange.H"
 
+#include "exchange/flowAtPoints.H"
 #include "support/rankSums.H"
-
-#include "fvcGrad.H"
 
 #include <algorithm>
 #include <cmath>
@@ -32,17 +31,13 @@ constexpr double kLoosest = 0.4;
 /// Lanes of what particles bring.
 constexpr int kVolume = 0, kImpulse = 1, kDrag = 4, kBrought = 5;
 
-/// Value at a point: that of its cell, with the gradient there.
-template <class Value, class Gradient>
-Value linear(const Value& value, const Gradient& gradient, const vector& fromCentre) {
-  return value + (fromCentre & gradient);
-}
-
 } // namespace
 
 particleExchange::particleExchange(const fvMesh& mesh, const ExchangeSettings& settings)
     : mesh_(mesh), settings_(settings), particlePoints_(mesh), overflow_(mesh, settings.maxSolid),
-      solidVolume_(mesh.nCells(), Zero), pressurePending_(mesh.nCells()), stressPending_(mesh.nCells()) {
+      solidVolume_(mesh.nCells(), Zero) {
+  for (const ForceDensity& density : kForceDensities)
+    pending_[density.quantity] = pendingForce(mesh.nCells());
   if (!(settings.maxSolid >= kLoosest && settings.maxSolid < 1))
     throw wrong(
         "mostSolid", settings.maxSolid,
@@ -67,8 +62,8 @@ particleExchange::particleExchange(const fvMesh& mesh, const ExchangeSettings& s
 
 std::vector<scalarField*> particleExchange::memory() {
   std::vector<scalarField*> fields;
-  pressurePending_.addMemory(fields);
-  stressPending_.addMemory(fields);
+  for (const ForceDensity& density : kForceDensities)
+    pending_[density.quantity].addMemory(fields);
   return fields;
 }
 
@@ -189,6 +184,13 @@ SharedFields<width> particleExchange::readable(const std::vector<const vectorFie
   return shared;
 }
 
+unsigned particleExchange::offered() {
+  unsigned all = flowAtPoints::offered();
+  for (const ForceDensity& density : kForceDensities)
+    all |= density.quantity;
+  return all;
+}
+
 particleExchange::AppliedFields particleExchange::appliedFields(const FlowFields& flow,
                                                                 const link::FluidSamples& samples) {
   AppliedFields applied;
@@ -197,115 +199,59 @@ particleExchange::AppliedFields particleExchange::appliedFields(const FlowFields
     fluidSolid = 1.0 - flow.fraction->primitiveField();
     solid = solidVolume_ / mesh_.V();
   }
-  const auto tell = [&](const vectorField& given, pendingForce& deferred) {
-    return flow.share ? deferred.tell(given, fluidSolid, solid, *flow.share) : given;
-  };
-  if (samples.pressure_gradient)
-    applied.pressureGradient = tell(*flow.pressureGradient, pressurePending_);
-  if (samples.stress_divergence)
-    applied.stressDivergence = tell(*flow.stressDivergence, stressPending_);
+  for (const auto& [quantity, sign] : kForceDensities)
+    if (samples[quantity]) {
+      const vectorField& given = *flow.density[quantity];
+      applied[quantity] = flow.share ? pending_[quantity].tell(given, fluidSolid, solid, *flow.share) : given;
+    }
   return applied;
 }
 
 vectorField particleExchange::untold() const {
-  return stressPending_.back() - pressurePending_.back();
-}
-
-/// Of the fluid at a particle point.
-struct PointFlow {
-  vector velocity = Zero;
-  scalar fraction = 1;
-};
-
-struct particleExchange::FlowAtParticlePoints {
-  const fvMesh& mesh;
-  const scalar minFraction; ///< that a velocity may be divided by
-  const volScalarField* fraction;
-  tmp<volVectorField> flux; ///< alpha U per area; U where the fraction is not known
-  tmp<volTensorField> gradU, gradFlux;
-  tmp<volVectorField> gradFraction;
-  SharedFields<kNarrow> readable; ///< flux and fraction
-
-  PointFlow at(const ParticlePoint& particlePoint, const PointShares* shares) const {
-    const label cell = particlePoint.at.cell;
-    const point x(particlePoint.at.position[0], particlePoint.at.position[1], particlePoint.at.position[2]);
-    const vector fromCentre(particlePoint.outside ? vector(Zero) : x - mesh.cellCentres()[cell]);
-    Bundled<kNarrow> read{};
-    if (shares && !readable.cells.empty())
-      vertexSharing::read(*shares, readable, read);
-    PointFlow here;
-    if (fraction)
-      here.fraction =
-          shares ? read.at[flowReading::kScalar] : linear((*fraction)[cell], gradFraction()[cell], fromCentre);
-    if (flux.valid()) {
-      here.velocity =
-          shares ? vector(read.at[0], read.at[1], read.at[2]) : linear(flux()[cell], gradFlux()[cell], fromCentre);
-      if (fraction)
-        here.velocity /= std::max(here.fraction, minFraction);
-    }
-    return here;
-  }
-};
-
-particleExchange::FlowAtParticlePoints particleExchange::flowAtParticlePoints(const FlowFields& flow,
-                                                                              const link::FluidSamples& samples) const {
-  FlowAtParticlePoints at{mesh_, 1.0 - settings_.maxSolid, flow.fraction, {}, {}, {}, {}, {}};
-  if (samples.vorticity)
-    at.gradU = fvc::grad(*flow.velocity);
-  if (samples.velocity) {
-    at.flux = flow.fraction ? *flow.fraction * *flow.velocity : tmp<volVectorField>(*flow.velocity);
-    at.gradFlux = fvc::grad(at.flux());
-  }
-  if (flow.fraction && (samples.fraction || samples.velocity))
-    at.gradFraction = fvc::grad(*flow.fraction);
-  else
-    at.fraction = nullptr;
-  if (reading_ && (at.flux.valid() || at.fraction))
-    at.readable =
-        reading_->readable(at.flux.valid() ? &at.flux() : nullptr, at.gradFlux.valid() ? &at.gradFlux() : nullptr,
-                           at.fraction, at.gradFraction.valid() ? &at.gradFraction() : nullptr);
-  return at;
+  vectorField all(mesh_.nCells(), Zero);
+  for (const auto& [quantity, sign] : kForceDensities)
+    all += sign * pending_[quantity].back();
+  return all;
 }
 
 void particleExchange::sample(const FlowFields& flow, const link::ParticleArrays& particles,
                               const link::FluidSamples& samples) {
   const AppliedFields applied = appliedFields(flow, samples);
-  if (samples.pressure_gradient && samples.stress_divergence)
-    sampleAt<kWide>(flow, applied, particles, samples);
+  std::vector<link::Quantity> densities;
+  for (const ForceDensity& density : kForceDensities)
+    if (samples[density.quantity])
+      densities.push_back(density.quantity);
+  if (3 * densities.size() > kNarrow)
+    sampleAt<kWide>(flow, applied, densities, particles, samples);
   else
-    sampleAt<kNarrow>(flow, applied, particles, samples);
+    sampleAt<kNarrow>(flow, applied, densities, particles, samples);
   balanceForces(applied, particles, samples);
 }
 
 template <int width>
 void particleExchange::sampleAt(const FlowFields& flow, const AppliedFields& applied,
-                                const link::ParticleArrays& particles, const link::FluidSamples& samples) {
-  const FlowAtParticlePoints atParticlePoints(flowAtParticlePoints(flow, samples));
-  std::vector<const vectorField*> forces;
-  if (samples.pressure_gradient)
-    forces.push_back(&applied.pressureGradient);
-  if (samples.stress_divergence)
-    forces.push_back(&applied.stressDivergence);
+                                const std::vector<link::Quantity>& densities, const link::ParticleArrays& particles,
+                                const link::FluidSamples& samples) {
+  unsigned asked = 0;
+  for (const link::FlowQuantity& quantity : link::kFlowQuantities)
+    if (samples[quantity.bit])
+      asked |= quantity.bit;
+  const flowAtPoints centres(mesh_, flow, asked, settings_.fractionFloor, 1.0 - settings_.maxSolid, reading_.get());
+  asked &= flowAtPoints::offered();
+  std::vector<const vectorField*> fields;
+  for (const link::Quantity quantity : densities)
+    fields.push_back(&applied[quantity]);
   SharedFields<width> shared;
-  if (!forces.empty())
-    shared = readable<width>(forces);
+  if (!fields.empty())
+    shared = readable<width>(fields);
 
-  const int perCentre = (samples.velocity ? 3 : 0) + (samples.fraction ? 1 : 0) + (samples.vorticity ? 3 : 0);
-  const int perPoint = 3 * static_cast<int>(forces.size());
-  const auto put = [](double*& at, const vector& v) {
-    for (int k = 0; k < 3; ++k)
-      *at++ = v[k];
-  };
+  const int perCentre = centres.columns();
+  const int perPoint = 3 * static_cast<int>(densities.size());
   const auto fill = [&](const ParticlePoint& particlePoint, double* at) {
     const PointShares* shares = sharing_ ? &shares_[&particlePoint - particlePoints_.here().data()] : nullptr;
     if (particlePoint.centre) {
-      const PointFlow here(atParticlePoints.at(particlePoint, shares));
-      if (samples.velocity)
-        put(at, here.velocity);
-      if (samples.fraction)
-        *at++ = std::clamp(here.fraction, settings_.fractionFloor, 1.0);
-      if (samples.vorticity)
-        put(at, 2.0 * (*skew(atParticlePoints.gradU()[particlePoint.at.cell])));
+      centres.read(particlePoint, shares, at);
+      at += perCentre;
     }
     if (perPoint > 0) {
       Bundled<width> values;
@@ -317,30 +263,18 @@ void particleExchange::sampleAt(const FlowFields& flow, const AppliedFields& app
         *at++ = particlePoint.weight * values.at[k];
     }
   };
-  for (std::size_t i = 0; i < particles.count; ++i)
-    for (int k = 0; k < 3; ++k) {
-      if (samples.pressure_gradient)
-        samples.pressure_gradient[i][k] = 0;
-      if (samples.stress_divergence)
-        samples.stress_divergence[i][k] = 0;
-    }
+  for (const link::Quantity quantity : densities)
+    std::fill_n(samples[quantity], 3 * particles.count, 0.0);
   const auto add = [&](int row, const double* centre, const double* point) {
-    if (centre) {
-      if (samples.velocity)
-        for (int k = 0; k < 3; ++k)
-          samples.velocity[row][k] = *centre++;
-      if (samples.fraction)
-        samples.fraction[row] = *centre++;
-      if (samples.vorticity)
-        for (int k = 0; k < 3; ++k)
-          samples.vorticity[row][k] = *centre++;
-    }
-    if (samples.pressure_gradient)
+    if (centre)
+      for (const link::FlowQuantity& quantity : link::kFlowQuantities)
+        if (asked & quantity.bit) {
+          std::copy_n(centre, quantity.columns, samples[quantity.bit] + quantity.columns * std::size_t(row));
+          centre += quantity.columns;
+        }
+    for (const link::Quantity quantity : densities)
       for (int k = 0; k < 3; ++k)
-        samples.pressure_gradient[row][k] += *point++;
-    if (samples.stress_divergence)
-      for (int k = 0; k < 3; ++k)
-        samples.stress_divergence[row][k] += *point++;
+        samples[quantity][3 * std::size_t(row) + k] += *point++;
   };
   particlePoints_.answer(perCentre, perPoint, fill, add, particles.cell_hint);
 }
@@ -349,21 +283,20 @@ void particleExchange::balanceForces(const AppliedFields& applied, const link::P
                                      const link::FluidSamples& samples) {
   vector onMesh(Zero), onParticles(Zero), pending(Zero);
   double scale = 0;
-  const auto add = [&](const vectorField& field, const double(*values)[3], const pendingForce& deferred, double sign) {
-    onMesh += sum(vectorField(solidVolume_ * field));
-    for (std::size_t i = 0; i < particles.count; ++i) {
-      const vector force(particles.volume[i] * vector(values[i][0], values[i][1], values[i][2]));
+  for (const auto& [quantity, sign] : kForceDensities) {
+    const double* values = samples[quantity];
+    if (!values)
+      continue;
+    onMesh += sum(vectorField(solidVolume_ * applied[quantity]));
+    for (std::size_t i = 0; i < particles.count; ++i, values += 3) {
+      const vector force(particles.volume[i] * vector(values[0], values[1], values[2]));
       onParticles += force;
       scale += mag(force);
       pending += sign * force;
     }
     for (int k = 0; k < 3; ++k)
-      pending[k] += sign * sum(scalarField(deferred.rest(k) * mesh_.V()));
-  };
-  if (samples.pressure_gradient)
-    add(applied.pressureGradient, samples.pressure_gradient, pressurePending_, -1);
-  if (samples.stress_divergence)
-    add(applied.stressDivergence, samples.stress_divergence, stressPending_, 1);
+      pending[k] += sign * sum(scalarField(pending_[quantity].rest(k) * mesh_.V()));
+  }
   std::array<double, 10> sums{scale,           onMesh.x(),      onMesh.y(),  onMesh.z(),  onParticles.x(),
                               onParticles.y(), onParticles.z(), pending.x(), pending.y(), pending.z()};
   sumOverRanks(sums);

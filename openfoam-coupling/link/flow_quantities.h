@@ -4,6 +4,10 @@
 // computes, samples and sends; nothing else exists.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <string>
+
 namespace eccentra::link {
 
 /// Bits of a set of fluid quantities at a particle's centre. World frame, SI.
@@ -15,13 +19,94 @@ enum Quantity : unsigned {
   kVorticity = 1u << 4,        ///< curl u_f [1/s]
 };
 
+/// One quantity: its bit, the word for it in scripts and reports, doubles per particle (1 a scalar, 3 a vector, 9 a
+/// tensor by rows), and the value of each where the fluid is clear and at rest.
+struct FlowQuantity {
+  Quantity bit;
+  const char* name;
+  int columns;
+  double at_rest;
+};
+
+/// All quantities in the order of their bits, in which they also travel. Every loop over quantities walks this table;
+/// docs/add-a-flow-quantity.md says what else a new one takes.
+inline constexpr FlowQuantity kFlowQuantities[] = {
+    {kVelocity, "velocity", 3, 0.0},
+    {kFraction, "fraction", 1, 1.0},
+    {kPressureGradient, "pressure_gradient", 3, 0.0},
+    {kStressDivergence, "stress_divergence", 3, 0.0},
+    {kVorticity, "vorticity", 3, 0.0},
+};
+inline constexpr int kFlowQuantityCount = sizeof kFlowQuantities / sizeof kFlowQuantities[0];
+/// The set of all quantities.
+inline constexpr unsigned kAllQuantities = (1u << kFlowQuantityCount) - 1;
+
+/// Row of a quantity in the table.
+constexpr int place_of(Quantity bit) {
+  int place = 0;
+  while (!(bit >> place & 1u))
+    ++place;
+  return place;
+}
+constexpr int columns_of(Quantity bit) {
+  return kFlowQuantities[place_of(bit)].columns;
+}
+
+namespace detail {
+constexpr bool in_order_of_bits() {
+  for (int place = 0; place < kFlowQuantityCount; ++place)
+    if (kFlowQuantities[place].bit != 1u << place)
+      return false;
+  return true;
+}
+} // namespace detail
+static_assert(detail::in_order_of_bits(), "a row's place in the table is its bit");
+
+/// Doubles per particle of a set of quantities.
+constexpr int columns_of_set(unsigned quantities) {
+  int columns = 0;
+  for (const FlowQuantity& quantity : kFlowQuantities)
+    columns += quantities & quantity.bit ? quantity.columns : 0;
+  return columns;
+}
+
+/// The words for a set of quantities, with `separator` between them; empty for the empty set. Bits that no quantity has
+/// are named by their numbers.
+inline std::string names_of(unsigned quantities, const char* separator = ", ") {
+  std::string names;
+  for (unsigned place = 0; place < 32; ++place)
+    if (quantities >> place & 1u)
+      names += (names.empty() ? "" : separator) + (place < kFlowQuantityCount ? std::string(kFlowQuantities[place].name)
+                                                                              : "number " + std::to_string(place));
+  return names;
+}
+
+/// One value for each quantity, found by the quantity's bit.
+template <class Value> class PerQuantity {
+ public:
+  constexpr Value& operator[](Quantity bit) { return values_[place_of(bit)]; }
+  constexpr const Value& operator[](Quantity bit) const { return values_[place_of(bit)]; }
+
+ private:
+  std::array<Value, kFlowQuantityCount> values_{};
+};
+
 /// Per-atom samples of the flow; rows are local atoms. An array is null where its quantity is not asked for.
-struct FluidSamples {
-  double (*velocity)[3] = nullptr;
-  double* fraction = nullptr;
-  double (*pressure_gradient)[3] = nullptr;
-  double (*stress_divergence)[3] = nullptr;
-  double (*vorticity)[3] = nullptr;
+class FluidSamples : public PerQuantity<double*> {
+ public:
+  using Vectors = double (*)[3];
+  using Scalars = double*;
+
+  Vectors velocity() const { return rows<kVelocity>(); }
+  Scalars fraction() const { return (*this)[kFraction]; }
+  Vectors pressure_gradient() const { return rows<kPressureGradient>(); }
+  Vectors stress_divergence() const { return rows<kStressDivergence>(); }
+  Vectors vorticity() const { return rows<kVorticity>(); }
+
+ private:
+  template <Quantity bit> auto rows() const -> double (*)[columns_of(bit)] {
+    return reinterpret_cast<double(*)[columns_of(bit)]>((*this)[bit]);
+  }
 };
 
 /// What the fluid did to each particle since the last reset, as time integrals over DEM steps; rows are local atoms.

@@ -3,6 +3,8 @@
 // The rules by which two solvers refuse each other.
 #include "link/terms.h"
 
+#include "link/flow_quantities.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -100,9 +102,9 @@ std::string disagreement(const DemTerms& dem, const FluidTerms& fluid) {
     return text;
   if (const unsigned missing = dem.needed & ~fluid.offered; missing != 0)
     return sentence(
-        "the closures need fluid quantities (bits %#x) that this solver does not offer: drop the effect that "
-        "needs them from fix fluid/force",
-        missing);
+        "the closures need %s of the flow but this solver does not offer that: drop the effect that needs it from fix "
+        "fluid/force",
+        names_of(missing).c_str());
   if (dem.fluid_density > 0 && !same(dem.fluid_density, fluid.fluid_density))
     return sentence("the fluid's density is %g kg/m3 in fix fluid/force but %g kg/m3 in the solver: make both the same",
                     dem.fluid_density, fluid.fluid_density);

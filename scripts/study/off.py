@@ -100,7 +100,7 @@ def study(chosen):
     for effects, counters in said.items():
         dem, fluid = counters["dem"], counters["fluid"]
         lines += [f"coupled with '{effects}':", f"  {dem}", f"  {fluid}"]
-        if effects != everything and ("pressureGradient 0 times, stressDivergence 0" not in fluid or "evaluates 2 closures" not in dem):
+        if effects != everything and ("pressure_gradient 0 times, stress_divergence 0" not in fluid or "evaluates 2 closures" not in dem):
             wrong += 1
             lines.append("  WRONG: drag and buoyancy alone need neither the pressure gradient nor the stress")
     (chosen.out / "off.txt").write_text("\n".join(lines) + "\n")

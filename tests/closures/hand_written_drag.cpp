@@ -19,7 +19,7 @@ double hand_written_drag(const closures::HalfStep& half_step, const closures::Rh
                          : 0.0;
     const double* v = half_step.velocity[i];
     double* f = half_step.force[i];
-    const double* u = half_step.samples.velocity[i];
+    const double* u = half_step.samples.velocity()[i];
     const double sx = u[0] - v[0], sy = u[1] - v[1], sz = u[2] - v[2];
     const double fx = sx - h * f[0], fy = sy - h * f[1], fz = sz - h * f[2];
     const double free2 = fx * fx + fy * fy + fz * fz;
@@ -27,7 +27,7 @@ double hand_written_drag(const closures::HalfStep& half_step, const closures::Rh
       continue;
     const double free = std::sqrt(free2);
     const double d = 2.0 * half_step.radius[i];
-    double fraction = half_step.samples.fraction[i];
+    double fraction = half_step.samples.fraction()[i];
     fraction = fraction < 0.3 ? 0.3 : fraction > 1.0 ? 1.0 : fraction;
     const double inverse_d = 1.0 / d;
     const double area = closures::kPi / 8.0 * d * d * (fraction < 1.0 ? std::pow(fraction, -1.65) : 1.0);

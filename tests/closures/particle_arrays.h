@@ -16,9 +16,8 @@ namespace eccentra::test {
 class ParticleArrays : public closures::ShapeCatalogue {
  public:
   explicit ParticleArrays(int count, unsigned seed = 1)
-      : velocity_(3 * count), force_(3 * count), spin_(3 * count), torque_(3 * count), flow_(3 * count),
-        pressure_(3 * count), stress_(3 * count), vorticity_(3 * count), impulse_(3 * count), last_(4 * count),
-        mass_(count, kMass), radius_(count, kRadius), fraction_(count), coefficient_(count), kind_(count, 1),
+      : velocity_(3 * count), force_(3 * count), spin_(3 * count), torque_(3 * count), impulse_(3 * count),
+        last_(4 * count), mass_(count, kMass), radius_(count, kRadius), coefficient_(count), kind_(count, 1),
         mask_(count, 1), rows_(4 * count) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
@@ -28,11 +27,13 @@ class ParticleArrays : public closures::ShapeCatalogue {
     };
     fill(velocity_, 0.1);
     fill(spin_, 5.0);
-    fill(flow_, 0.1);
-    fill(pressure_, 300.0);
-    fill(stress_, 300.0);
-    fill(vorticity_, 10.0);
-    for (double& a : fraction_)
+    for (const link::FlowQuantity& quantity : link::kFlowQuantities) {
+      std::vector<double>& values = flow_[quantity.bit];
+      values.resize(std::size_t(quantity.columns) * count);
+      fill(values, scale_of(quantity.bit));
+      half_step_.samples[quantity.bit] = values.data();
+    }
+    for (double& a : flow_[link::kFraction])
       a = std::uniform_real_distribution<double>(0.5, 1.0)(random);
     for (int i = 0; i < count; ++i) {
       rows_[i] = &velocity_[3 * i];
@@ -53,9 +54,6 @@ class ParticleArrays : public closures::ShapeCatalogue {
     half_step_.mask = mask_.data();
     half_step_.group = half_step_.integrated = 1;
     half_step_.gravity[2] = -9.81;
-    half_step_.samples = {reinterpret_cast<Rows3>(flow_.data()), fraction_.data(),
-                          reinterpret_cast<Rows3>(pressure_.data()), reinterpret_cast<Rows3>(stress_.data()),
-                          reinterpret_cast<Rows3>(vorticity_.data())};
     half_step_.impulse = reinterpret_cast<Rows3>(impulse_.data());
     half_step_.drag_coefficient = coefficient_.data();
     half_step_.last = reinterpret_cast<double(*)[4]>(last_.data());
@@ -75,10 +73,18 @@ class ParticleArrays : public closures::ShapeCatalogue {
   double crosswise_sphericity(int, const double*) const override { return 1.0; }
 
  private:
+  /// Standard deviation of each component: velocities [m/s], force densities [N/m3], rates of shear [1/s].
+  static double scale_of(link::Quantity quantity) {
+    return quantity == link::kVelocity                                      ? 0.1
+           : quantity & (link::kPressureGradient | link::kStressDivergence) ? 300.0
+                                                                            : 10.0;
+  }
+
   static constexpr double kRadius = 3.175e-3;
   static constexpr double kMass = 2619.0 * 4.0 / 3.0 * closures::kPi * kRadius * kRadius * kRadius;
-  std::vector<double> velocity_, force_, spin_, torque_, flow_, pressure_, stress_, vorticity_, impulse_, last_;
-  std::vector<double> mass_, radius_, fraction_, coefficient_;
+  std::vector<double> velocity_, force_, spin_, torque_, impulse_, last_;
+  link::PerQuantity<std::vector<double>> flow_;
+  std::vector<double> mass_, radius_, coefficient_;
   std::vector<int> kind_, mask_;
   std::vector<double*> rows_;
   closures::HalfStep half_step_;

@@ -61,19 +61,19 @@ void expect_shrinks_and_grows(const Outcome& outcome) {
   ASSERT_EQ(outcome.status, 0) << outcome.text;
   const std::vector<std::string> asked = found(outcome.text, "the fluid is asked for");
   ASSERT_EQ(asked.size(), 4u) << outcome.text;
-  const std::string everything = " velocity fraction pressureGradient stressDivergence vorticity";
+  const std::string everything = " velocity fraction pressure_gradient stress_divergence vorticity";
   EXPECT_EQ(asked[0], everything);
   EXPECT_EQ(asked[1], " velocity fraction");
   EXPECT_EQ(asked[2], everything);
-  EXPECT_EQ(asked[3], " velocity fraction pressureGradient");
+  EXPECT_EQ(asked[3], " velocity fraction pressure_gradient");
   EXPECT_NE(outcome.text.find("to the fluid, 104 back"), std::string::npos) << outcome.text;
   EXPECT_NE(outcome.text.find("to the fluid, 32 back"), std::string::npos) << outcome.text;
   EXPECT_NE(outcome.text.find("to the fluid, 56 back"), std::string::npos) << outcome.text;
   // Meetings 0 to 4 see all effects, so do those at steps 400 to 600; the pressure gradient comes back to stay.
   const int all = kMeasured / kInterval, again = kMeasured / kInterval + 1, rest = kCouplingSteps - (400 / kInterval);
-  EXPECT_EQ(number_after(outcome.text, "meetings: pressureGradient "), all + rest) << outcome.text;
-  EXPECT_EQ(number_after(outcome.text, "times, stressDivergence "), all + again) << outcome.text;
-  EXPECT_EQ(number_after(outcome.text, "velocity gradient "), kCouplingSteps);
+  EXPECT_EQ(number_after(outcome.text, " times, pressure_gradient "), all + rest) << outcome.text;
+  EXPECT_EQ(number_after(outcome.text, " times, stress_divergence "), all + again) << outcome.text;
+  EXPECT_EQ(number_after(outcome.text, "coupling steps: velocity "), kCouplingSteps);
   const double back =
       27e-6 * (104 * (all + again) + 32 * (400 / kInterval - all) + 56 * (kCouplingSteps - 400 / kInterval - again));
   EXPECT_NEAR(number_after(outcome.text, "MB of particles to the fluid, "), back, 1e-5 * back) << outcome.text;

@@ -74,13 +74,13 @@ void exchangeOf(benchmark::State& state, VoidFraction method) {
   particles.drag_coefficient = drag.data();
   particles.cell_hint = cellHints.data();
   link::FluidSamples samples;
-  samples.velocity = reinterpret_cast<double(*)[3]>(velocity.data());
-  samples.pressure_gradient = reinterpret_cast<double(*)[3]>(pressure.data());
+  samples[link::kVelocity] = reinterpret_cast<double*>(velocity.data());
+  samples[link::kPressureGradient] = reinterpret_cast<double*>(pressure.data());
   Foam::volVectorField u(Foam::IOobject("u", sharedMesh->time().timeName(), *sharedMesh), *sharedMesh,
                          Foam::dimensionedVector("u", Foam::dimVelocity, Foam::vector(0, 0, 1)));
   FlowFields flow;
   flow.velocity = &u;
-  flow.pressureGradient = &u.primitiveField();
+  flow.density[link::kPressureGradient] = &u.primitiveField();
   ExchangeSettings settings;
   settings.method = method;
   settings.length = 0.01;

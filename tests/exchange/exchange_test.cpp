@@ -79,10 +79,10 @@ struct Scene {
     vorticitySample.resize(position.size());
     fractionSample.resize(position.size());
     link::FluidSamples view;
-    view.velocity = reinterpret_cast<double(*)[3]>(velocitySample.data());
-    view.fraction = fractionSample.data();
-    view.pressure_gradient = reinterpret_cast<double(*)[3]>(pressureSample.data());
-    view.vorticity = reinterpret_cast<double(*)[3]>(vorticitySample.data());
+    view[link::kVelocity] = reinterpret_cast<double*>(velocitySample.data());
+    view[link::kFraction] = fractionSample.data();
+    view[link::kPressureGradient] = reinterpret_cast<double*>(pressureSample.data());
+    view[link::kVorticity] = reinterpret_cast<double*>(vorticitySample.data());
     return view;
   }
 };
@@ -160,7 +160,7 @@ void checkBalances(Scene scene, bool clusters) {
       FlowFields flow;
       flow.velocity = &u();
       flow.fraction = &alpha;
-      flow.pressureGradient = &gradient;
+      flow.density[link::kPressureGradient] = &gradient;
       exchange.sample(flow, particles, scene.samples());
       const ExchangeBalance& balance = exchange.balance();
       EXPECT_NEAR(balance.meshVolume / balance.particleVolume, 1.0, 1e-12);
@@ -267,8 +267,8 @@ TEST(Exchange, LinearFieldsAreSampledExactly) {
   FlowFields flow;
   flow.velocity = &u();
   link::FluidSamples samples = scene.samples();
-  samples.fraction = nullptr;
-  samples.pressure_gradient = nullptr;
+  samples[link::kFraction] = nullptr;
+  samples[link::kPressureGradient] = nullptr;
   exchange.sample(flow, particles, samples);
   int checked = 0;
   for (std::size_t i = 0; i < scene.position.size(); ++i) {

@@ -59,8 +59,8 @@ class EchoFluid : public link::FluidPeer {
     MPI_Allreduce(&own, &all, 1, MPI_LONG_LONG, MPI_SUM, ranks_);
     for (std::size_t i = 0; i < particles.count; ++i) {
       for (int k = 0; k < 3; ++k)
-        samples.velocity[i][k] = particles.position[i][k];
-      samples.fraction[i] = double(all);
+        samples.velocity()[i][k] = particles.position[i][k];
+      samples.fraction()[i] = double(all);
       particles.cell_hint[i] = {link::rank_of(ranks_), 0};
     }
     if (fails)
@@ -106,8 +106,8 @@ struct Flock {
   }
   link::FluidSamples samples() {
     link::FluidSamples samples;
-    samples.velocity = reinterpret_cast<Vectors>(velocity.data());
-    samples.fraction = fraction.data();
+    samples[link::kVelocity] = velocity.data();
+    samples[link::kFraction] = fraction.data();
     return samples;
   }
 };

@@ -41,7 +41,7 @@ class PromptFluid : public link::FluidPeer {
   int meet(const link::CouplingStep&, const link::ParticleArrays& particles,
            const link::FluidSamples& samples) override {
     for (std::size_t i = 0; i < particles.count; ++i)
-      samples.fraction[i] = particles.position[i][0];
+      samples.fraction()[i] = particles.position[i][0];
     return 0;
   }
   void advance() override {}
@@ -75,9 +75,9 @@ std::vector<double> times_of_coupling_steps(link::FluidPeer& fluid, std::size_t 
   particles.cell_hint = cell_hints.data();
   std::vector<double> velocity(3 * count), gradient(3 * count);
   link::FluidSamples samples;
-  samples.velocity = reinterpret_cast<Vectors>(velocity.data());
-  samples.fraction = fraction.data();
-  samples.pressure_gradient = reinterpret_cast<Vectors>(gradient.data());
+  samples[link::kVelocity] = velocity.data();
+  samples[link::kFraction] = fraction.data();
+  samples[link::kPressureGradient] = gradient.data();
   link::DemTerms terms;
   terms.time_step = 1e-5;
   terms.interval = 100;

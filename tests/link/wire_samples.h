@@ -72,10 +72,10 @@ inline link::wire::Bytes samples_message() {
   const link::FluidSamples samples = particles_here.samples();
   for (std::size_t i = 0; i < kRows; ++i) {
     for (int k = 0; k < 3; ++k) {
-      samples.velocity[i][k] = 10.0 * i + k;
-      samples.pressure_gradient[i][k] = -10.0 * i - k;
+      samples.velocity()[i][k] = 10.0 * i + k;
+      samples.pressure_gradient()[i][k] = -10.0 * i - k;
     }
-    samples.fraction[i] = 0.5 + 0.1 * i;
+    samples.fraction()[i] = 0.5 + 0.1 * i;
   }
   Bytes message(head + kRows * samples_row_bytes(kAsked));
   write_samples_head(message.data(), kCouplingStep, kRows, kAsked);
@@ -182,9 +182,9 @@ inline bool accepted(const std::byte* data, std::size_t size) {
       double velocity[kRows][3], fraction[kRows], gradient[kRows][3];
       link::CellHint cell_hints[kRows];
       link::FluidSamples samples;
-      samples.velocity = velocity;
-      samples.fraction = fraction;
-      samples.pressure_gradient = gradient;
+      samples[link::kVelocity] = velocity[0];
+      samples[link::kFraction] = fraction;
+      samples[link::kPressureGradient] = gradient[0];
       unpack_samples(rows, kAsked, samples, cell_hints);
       break;
     }

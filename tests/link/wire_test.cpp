@@ -144,8 +144,8 @@ TEST(Wire, SamplesArriveAsSentAndOnlyWhatIsAskedForTravels) {
   double velocity[kRows][3], fraction[kRows];
   CellHint cell_hints[kRows];
   eccentra::link::FluidSamples samples;
-  samples.velocity = velocity;
-  samples.fraction = fraction; // the gradient is not wanted after all
+  samples[eccentra::link::kVelocity] = velocity[0];
+  samples[eccentra::link::kFraction] = fraction; // the gradient is not wanted after all
   wire::unpack_samples(rows, kAsked, samples, cell_hints);
   for (std::size_t i = 0; i < kRows; ++i) {
     EXPECT_EQ(velocity[i][2], 10.0 * i + 2);
@@ -157,9 +157,9 @@ TEST(Wire, SamplesArriveAsSentAndOnlyWhatIsAskedForTravels) {
 TEST(Wire, ArraysThatAreAskedForExistWithoutParticles) {
   wire::ParticlePoints particles_here;
   particles_here.load({}, true, kAsked);
-  EXPECT_NE(particles_here.samples().velocity, nullptr);
+  EXPECT_NE(particles_here.samples().velocity(), nullptr);
   EXPECT_NE(particles_here.particles().extent, nullptr);
-  EXPECT_EQ(particles_here.samples().vorticity, nullptr);
+  EXPECT_EQ(particles_here.samples().vorticity(), nullptr);
 }
 
 TEST(Wire, HeadersThatDoNotFitAreRefused) {

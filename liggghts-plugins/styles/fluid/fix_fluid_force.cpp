@@ -4,7 +4,6 @@
 #include "styles/fluid/fix_fluid_force.h"
 
 #include "styles/entry/style_registry.h"
-#include "styles/fluid/sample_arrays.h"
 
 #include <mpi.h>
 
@@ -96,12 +95,11 @@ void FixFluidForce::switch_effects(const std::vector<bool>& on) {
 }
 
 void FixFluidForce::declare_arrays() {
-  unsigned array = 0;
-  for (const SampleArray& sample : kSampleArrays) {
-    const bool needed = needs_ & sample.quantity;
+  for (const link::FlowQuantity& quantity : link::kFlowQuantities) {
+    const bool needed = needs_ & quantity.bit;
+    const unsigned array = link::place_of(quantity.bit);
     if (arrays_.enabled(array) != needed || !array_atom)
-      arrays_.declare(array, sample.columns, needed);
-    ++array;
+      arrays_.declare(array, quantity.columns, needed);
   }
   grow_arrays(atom->nmax);
 }
@@ -112,8 +110,10 @@ link::FluidSamples FixFluidForce::samples() {
 }
 
 link::FluidSamples FixFluidForce::sample_arrays() {
-  const auto rows_of_three = [this](unsigned array) { return reinterpret_cast<double(*)[3]>(arrays_.data(array)); };
-  return {rows_of_three(0), arrays_.data(1), rows_of_three(2), rows_of_three(3), rows_of_three(4)};
+  link::FluidSamples samples;
+  for (const link::FlowQuantity& quantity : link::kFlowQuantities)
+    samples[quantity.bit] = arrays_.data(link::place_of(quantity.bit));
+  return samples;
 }
 
 link::FluidReaction FixFluidForce::reaction() {
@@ -289,10 +289,11 @@ void FixFluidForce::copy_arrays(int from, int to, int) {
 void FixFluidForce::set_arrays(int i) {
   arrays_.zero(i);
   const link::FluidSamples flow = sample_arrays();
-  if (flow.velocity)
-    std::copy_n(atom->v[i], kDimension, flow.velocity[i]);
-  if (flow.fraction)
-    flow.fraction[i] = 1.0;
+  for (const link::FlowQuantity& quantity : link::kFlowQuantities)
+    if (double* values = flow[quantity.bit])
+      std::fill_n(values + quantity.columns * std::size_t(i), quantity.columns, quantity.at_rest);
+  if (flow.velocity())
+    std::copy_n(atom->v[i], kDimension, flow.velocity()[i]);
 }
 
 int FixFluidForce::pack_exchange(int i, double* buffer) {

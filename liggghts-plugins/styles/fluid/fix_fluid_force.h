@@ -87,7 +87,9 @@ class FixFluidForce : public LAMMPS_NS::Fix {
   double compute_vector(int n) override;
 
  private:
+  /// Arrays of samples have the places of their quantities. The numbers stand in restart files.
   enum ArrayId : unsigned { kImpulse = 8, kCoefficient = 9, kLast = 10 };
+  static_assert(link::kFlowQuantityCount <= kImpulse, "samples have numbers below those of the other arrays");
   link::FluidSamples sample_arrays();
   closures::HalfStep make_half_step(double interval);
   /// Sets which effects act, and the quantities and arrays that they need.

@@ -3,7 +3,6 @@
 // What fix fluid/force says: effects and their price, ranges of validity, and the screen that switches effects.
 #include "closures/particle_numbers.h"
 #include "styles/fluid/fix_fluid_force.h"
-#include "styles/fluid/sample_arrays.h"
 
 #include <mpi.h>
 
@@ -44,13 +43,8 @@ void FixFluidForce::report_effects() {
     text += std::string(on++ ? ", " : " ") + effects_[e]->name();
   }
   text += on ? "; asks the flow for" : " none; asks the flow for";
-  int doubles = 0;
-  for (const SampleArray& sample : kSampleArrays) {
-    if (!(needs_ & sample.quantity))
-      continue;
-    text += std::string(doubles ? ", " : " ") + sample.name;
-    doubles += sample.columns;
-  }
+  const int doubles = link::columns_of_set(needs_);
+  text += (doubles ? " " : "") + link::names_of(needs_);
   text += doubles ? " (" : " nothing (";
   text += std::to_string(doubles * sizeof(double)) + " bytes per particle); evaluates " + std::to_string(on) +
           " closures per particle and step; holds " + std::to_string(arrays_.columns() * sizeof(double)) +

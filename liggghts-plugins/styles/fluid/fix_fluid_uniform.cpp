@@ -27,18 +27,46 @@ using namespace LAMMPS_NS;
 namespace eccentra::styles {
 
 namespace {
+
 const RegisterFix<FixFluidUniform> kRecord("fluid/uniform", "a prescribed flow for fix fluid/force, no solver needed");
+
+/// A keyword, the place of its values among all, their number, and what each is without the keyword.
+struct Word {
+  const char* keyword;
+  int first;
+  int count;
+  double otherwise;
+};
+
+/// The vorticity is the curl of velocity_gradient; every other quantity of the flow is a keyword.
+constexpr bool has_keyword(link::Quantity quantity) {
+  return quantity != link::kVorticity;
 }
 
-const FixFluidUniform::Word FixFluidUniform::kWords[] = {{"velocity", kVelocityAt, 3},
-                                                         {"velocity_gradient", kGradientAt, 9},
-                                                         {"pressure_gradient", kPressureAt, 3},
-                                                         {"stress_divergence", kStressAt, 3},
-                                                         {"origin", kOriginAt, 3},
-                                                         {"fraction", kFractionAt, 1}};
+/// Those of the quantities follow those of velocity_gradient and origin.
+constexpr int kGradientAt = 0, kOriginAt = 9, kQuantitiesAt = 12;
 
-FixFluidUniform::FixFluidUniform(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg), values_(kPlaces) {
-  values_[kFractionAt].number = 1.0;
+/// Place of a quantity's values.
+constexpr int values_at(link::Quantity quantity) {
+  int at = kQuantitiesAt;
+  for (const link::FlowQuantity& before : link::kFlowQuantities)
+    at += before.bit < quantity && has_keyword(before.bit) ? before.columns : 0;
+  return at;
+}
+
+std::vector<Word> keywords() {
+  std::vector<Word> words;
+  for (const link::FlowQuantity& quantity : link::kFlowQuantities)
+    if (has_keyword(quantity.bit))
+      words.push_back({quantity.name, values_at(quantity.bit), quantity.columns, quantity.at_rest});
+  words.push_back({"velocity_gradient", kGradientAt, 9, 0.0});
+  words.push_back({"origin", kOriginAt, 3, 0.0});
+  return words;
+}
+
+} // namespace
+
+FixFluidUniform::FixFluidUniform(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {
   try {
     read(std::vector<std::string>(arg + 3, arg + narg));
   } catch (const std::invalid_argument& problem) {
@@ -47,19 +75,25 @@ FixFluidUniform::FixFluidUniform(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, n
 }
 
 void FixFluidUniform::read(const std::vector<std::string>& arguments) {
+  const std::vector<Word> words = keywords();
+  for (const Word& word : words) {
+    values_.resize(std::max<std::size_t>(values_.size(), word.first + word.count));
+    for (int k = 0; k < word.count; ++k)
+      values_[word.first + k].number = word.otherwise;
+  }
   bool has_velocity = false;
   base::OptionReader reader(arguments);
   while (reader.more()) {
     const std::string& keyword = reader.keyword();
-    const Word* word =
-        std::find_if(std::begin(kWords), std::end(kWords), [&](const Word& known) { return keyword == known.keyword; });
-    if (word == std::end(kWords)) {
+    const auto word =
+        std::find_if(words.begin(), words.end(), [&](const Word& known) { return keyword == known.keyword; });
+    if (word == words.end()) {
       std::string names;
-      for (const Word& known : kWords)
+      for (const Word& known : words)
         names += std::string(names.empty() ? "" : ", ") + known.keyword;
       reader.unknown(names);
     }
-    has_velocity |= word->first == kVelocityAt;
+    has_velocity |= word->first == values_at(link::kVelocity);
     for (int k = 0; k < word->count; ++k) {
       Value& value = values_[word->first + k];
       const std::string expected = fmt::format("{} numbers or variables (v_name)", word->count);
@@ -73,7 +107,7 @@ void FixFluidUniform::read(const std::vector<std::string>& arguments) {
   }
   if (!has_velocity)
     base::refuse("keyword 'velocity' is missing; add velocity UX UY UZ");
-  const Value& fraction = values_[kFractionAt];
+  const Value& fraction = values_[values_at(link::kFraction)];
   if (fraction.variable.empty() && !(fraction.number > 0.0 && fraction.number <= 1.0))
     base::refuse("keyword 'fraction': '{}' is no volume fraction of a fluid; expected a number greater than 0 and at "
                  "most 1",
@@ -134,27 +168,25 @@ void FixFluidUniform::fill() {
   if (variables_)
     evaluate();
   const link::FluidSamples flow = forces_->samples();
-  double** x = atom->x;
+  const auto gradient = [this](int i, int r, int c) { return values_[kGradientAt + 3 * r + c].at(i); };
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit))
       continue;
-    if (flow.velocity)
-      for (int r = 0; r < 3; ++r) {
-        double u = values_[kVelocityAt + r].at(i);
+    const Value* value = &values_[kQuantitiesAt];
+    for (const link::FlowQuantity& quantity : link::kFlowQuantities) {
+      if (!has_keyword(quantity.bit))
+        continue;
+      if (double* all = flow[quantity.bit])
+        for (int k = 0; k < quantity.columns; ++k)
+          all[quantity.columns * std::size_t(i) + k] = value[k].at(i);
+      value += quantity.columns;
+    }
+    for (int r = 0; r < 3; ++r) {
+      if (flow.velocity())
         for (int c = 0; c < 3; ++c)
-          u += values_[kGradientAt + 3 * r + c].at(i) * (x[i][c] - values_[kOriginAt + c].at(i));
-        flow.velocity[i][r] = u;
-      }
-    if (flow.fraction)
-      flow.fraction[i] = values_[kFractionAt].at(i);
-    for (int k = 0; k < 3; ++k) {
-      const auto gradient = [&](int r, int c) { return values_[kGradientAt + 3 * r + c].at(i); };
-      if (flow.pressure_gradient)
-        flow.pressure_gradient[i][k] = values_[kPressureAt + k].at(i);
-      if (flow.stress_divergence)
-        flow.stress_divergence[i][k] = values_[kStressAt + k].at(i);
-      if (flow.vorticity)
-        flow.vorticity[i][k] = gradient((k + 2) % 3, (k + 1) % 3) - gradient((k + 1) % 3, (k + 2) % 3);
+          flow.velocity()[i][r] += gradient(i, r, c) * (atom->x[i][c] - values_[kOriginAt + c].at(i));
+      if (flow.vorticity())
+        flow.vorticity()[i][r] = gradient(i, (r + 2) % 3, (r + 1) % 3) - gradient(i, (r + 1) % 3, (r + 2) % 3);
     }
   }
 }

@@ -14,8 +14,8 @@ namespace eccentra::styles {
 
 class FixFluidForce;
 
-/// u_f(x) = velocity + velocity_gradient (x - origin), and constant pressure gradient, stress divergence and fraction;
-/// each value is a number, an equal-style variable (of time) or an atom-style variable (of place).
+/// u_f(x) = velocity + velocity_gradient (x - origin), vorticity its curl, and each other quantity of the flow under
+/// its own name; each value is a number, an equal-style variable (of time) or an atom-style variable (of place).
 class FixFluidUniform : public LAMMPS_NS::Fix {
  public:
   FixFluidUniform(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
@@ -35,21 +35,6 @@ class FixFluidUniform : public LAMMPS_NS::Fix {
     std::vector<double> of_atom;
     double at(int i) const { return per_atom ? of_atom[i] : number; }
   };
-  struct Word {
-    const char* keyword;
-    int first;
-    int count;
-  };
-  enum Place {
-    kVelocityAt = 0,
-    kGradientAt = 3,
-    kPressureAt = 12,
-    kStressAt = 15,
-    kOriginAt = 18,
-    kFractionAt = 21,
-    kPlaces = 22
-  };
-  static const Word kWords[];
 
   void read(const std::vector<std::string>& arguments);
   void evaluate();

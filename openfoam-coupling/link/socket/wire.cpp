@@ -15,9 +15,6 @@ static_assert(sizeof(double) == 8 && std::numeric_limits<double>::is_iec559, "nu
 constexpr char kMagic[8] = {'E', 'C', 'C', 'E', 'N', 'T', 'R', 'A'};
 /// Reads differently on a machine of the other byte order.
 constexpr std::uint32_t kByteOrder = 0x01020304;
-constexpr int kQuantities = 5;
-/// Doubles of each link::Quantity, in the order of their bits.
-constexpr std::size_t kDoublesOf[kQuantities] = {3, 1, 3, 3, 3};
 constexpr std::size_t kParticleDoubles = 3 + 1 + 3 + 1;
 constexpr std::size_t kVolumeAt = 3;
 constexpr std::uint64_t kExponent = 0x7ff0000000000000; ///< of a binary64
@@ -86,16 +83,6 @@ static_assert(kRowsBytes == sizeof(std::uint64_t) + sizeof(std::uint32_t) + size
 /// Largest signal number of any system.
 constexpr std::uint32_t kMostSignal = 64;
 
-double* as_double(std::vector<double>& values, bool wanted) {
-  return wanted ? values.data() : nullptr;
-}
-
-/// An array that is wanted has an address even without rows: collective calls tell by it what is asked for.
-void size_for(std::vector<double>& values, std::size_t count, unsigned quantities, int bit) {
-  if (quantities & (1u << bit))
-    values.resize(std::max<std::size_t>(count * kDoublesOf[bit], 1));
-}
-
 void check_finite(const std::byte* row, std::size_t doubles, std::size_t index, const char* what) {
   // By bits, so that the loop vectorises: all ones in the exponent is infinity or no number.
   std::uint64_t none = 0;
@@ -150,10 +137,7 @@ std::size_t particle_row_bytes(bool extents) {
 }
 
 std::size_t samples_row_bytes(unsigned quantities) {
-  std::size_t doubles = 0;
-  for (int bit = 0; bit < kQuantities; ++bit)
-    doubles += quantities & (1u << bit) ? kDoublesOf[bit] : 0;
-  return sizeof(double) * doubles + sizeof(CellHint);
+  return sizeof(double) * columns_of_set(quantities) + sizeof(CellHint);
 }
 
 std::size_t max_bytes() {
@@ -425,9 +409,10 @@ void ParticlePoints::load(const std::vector<Rows>& parts, bool extents, unsigned
         cell_hint_[i] = CellHint{};
     }
   }
-  int bit = 0;
-  for (std::vector<double>* values : {&velocity_, &fraction_, &pressure_gradient_, &stress_divergence_, &vorticity_})
-    size_for(*values, count_, quantities, bit++);
+  // An array that is wanted has an address even without rows: collective calls tell by it what is asked for.
+  for (const FlowQuantity& quantity : kFlowQuantities)
+    if (quantities & quantity.bit)
+      values_[quantity.bit].resize(std::max<std::size_t>(count_ * quantity.columns, 1));
 }
 
 ParticleArrays ParticlePoints::particles() {
@@ -443,44 +428,33 @@ ParticleArrays ParticlePoints::particles() {
   return arrays;
 }
 
-link::FluidSamples ParticlePoints::samples() {
-  using Vectors = double(*)[3];
-  link::FluidSamples samples;
-  samples.velocity = reinterpret_cast<Vectors>(as_double(velocity_, quantities_ & link::kVelocity));
-  samples.fraction = as_double(fraction_, quantities_ & link::kFraction);
-  samples.pressure_gradient =
-      reinterpret_cast<Vectors>(as_double(pressure_gradient_, quantities_ & link::kPressureGradient));
-  samples.stress_divergence =
-      reinterpret_cast<Vectors>(as_double(stress_divergence_, quantities_ & link::kStressDivergence));
-  samples.vorticity = reinterpret_cast<Vectors>(as_double(vorticity_, quantities_ & link::kVorticity));
+FluidSamples ParticlePoints::samples() {
+  FluidSamples samples;
+  for (const FlowQuantity& quantity : kFlowQuantities)
+    if (quantities_ & quantity.bit)
+      samples[quantity.bit] = values_[quantity.bit].data();
   return samples;
 }
 
 void ParticlePoints::pack_samples(std::size_t first, std::size_t count, std::byte* rows) const {
   Writer out(rows);
-  const std::vector<double>* const arrays[kQuantities] = {&velocity_, &fraction_, &pressure_gradient_,
-                                                          &stress_divergence_, &vorticity_};
   for (std::size_t i = first; i < first + count; ++i) {
-    for (int bit = 0; bit < kQuantities; ++bit)
-      if (quantities_ & (1u << bit))
-        out.raw(arrays[bit]->data() + i * kDoublesOf[bit], kDoublesOf[bit] * sizeof(double));
+    for (const FlowQuantity& quantity : kFlowQuantities)
+      if (quantities_ & quantity.bit)
+        out.raw(values_[quantity.bit].data() + i * quantity.columns, quantity.columns * sizeof(double));
     out.plain(cell_hint_[i]);
   }
 }
 
-void unpack_samples(Rows rows, unsigned quantities, const link::FluidSamples& samples, CellHint* cell_hints) {
-  double* const arrays[kQuantities] = {reinterpret_cast<double*>(samples.velocity), samples.fraction,
-                                       reinterpret_cast<double*>(samples.pressure_gradient),
-                                       reinterpret_cast<double*>(samples.stress_divergence),
-                                       reinterpret_cast<double*>(samples.vorticity)};
+void unpack_samples(Rows rows, unsigned quantities, const FluidSamples& samples, CellHint* cell_hints) {
   const std::byte* from = rows.data;
   for (std::size_t i = 0; i < rows.count; ++i) {
-    for (int bit = 0; bit < kQuantities; ++bit) {
-      if (!(quantities & (1u << bit)))
+    for (const FlowQuantity& quantity : kFlowQuantities) {
+      if (!(quantities & quantity.bit))
         continue;
-      const std::size_t bytes = kDoublesOf[bit] * sizeof(double);
-      if (arrays[bit])
-        std::memcpy(arrays[bit] + i * kDoublesOf[bit], from, bytes);
+      const std::size_t bytes = quantity.columns * sizeof(double);
+      if (double* values = samples[quantity.bit])
+        std::memcpy(values + i * quantity.columns, from, bytes);
       from += bytes;
     }
     std::memcpy(&cell_hints[i], from, sizeof(CellHint));

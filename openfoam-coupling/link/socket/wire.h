@@ -44,8 +44,6 @@ constexpr std::uint32_t kMaxRankConnections = 65535;
 constexpr std::uint64_t kMostParticles = 10'000'000;
 /// Longest sentence of a refusal.
 constexpr std::size_t kMostText = 2048;
-/// All quantities that a message may ask for.
-constexpr unsigned kKnownQuantities = 31;
 
 /// Bytes of one particle to the fluid: position, volume, impulse, drag coefficient, [extent,] cell hint.
 std::size_t particle_row_bytes(bool extents);
@@ -126,7 +124,7 @@ class ParticlePoints {
   void load(const std::vector<Rows>& parts, bool extents, unsigned quantities);
   ParticleArrays particles();
   /// Arrays of the quantities asked for, null for the others, also where there is no particle.
-  link::FluidSamples samples();
+  FluidSamples samples();
   /// Writes samples and cell hint of `count` particles from `first` on to `rows`.
   void pack_samples(std::size_t first, std::size_t count, std::byte* rows) const;
 
@@ -136,10 +134,10 @@ class ParticlePoints {
   bool extents_ = false;
   std::vector<double> position_, volume_, impulse_, drag_, extent_;
   std::vector<CellHint> cell_hint_;
-  std::vector<double> velocity_, fraction_, pressure_gradient_, stress_divergence_, vorticity_;
+  PerQuantity<std::vector<double>> values_; ///< of those asked for
 };
 
 /// Puts samples and cell hint where the DEM side wants them; a quantity whose array is null is passed over.
-void unpack_samples(Rows rows, unsigned quantities, const link::FluidSamples& samples, CellHint* cell_hints);
+void unpack_samples(Rows rows, unsigned quantities, const FluidSamples& samples, CellHint* cell_hints);
 
 } // namespace eccentra::link::wire

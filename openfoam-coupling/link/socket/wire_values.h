@@ -81,7 +81,7 @@ class Reader {
   }
   void quantities(unsigned& bits) {
     bits = take<std::uint32_t>();
-    if (bits & ~kKnownQuantities)
+    if (bits & ~kAllQuantities)
       broken("names fluid quantities that do not exist");
   }
   void unused() { take<std::uint32_t>(); }
