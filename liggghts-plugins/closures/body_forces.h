@@ -33,7 +33,9 @@ struct StressField {
   static constexpr unsigned kNeeds = link::kStressDivergence;
   double density;
   /// div tau; with it, -grad p_rgh is the whole stress of model A on the particle.
-  double operator()(const HalfStep& half_step, int i, int k) const { return half_step.samples.stress_divergence()[i][k]; }
+  double operator()(const HalfStep& half_step, int i, int k) const {
+    return half_step.samples.stress_divergence()[i][k];
+  }
 };
 
 template <class Field> class BodyForce : public Effect {

@@ -80,8 +80,7 @@ class FluidPeer {
   /// Hands over the particles, advances the flow by `coupling step.elapsed`, and fills the arrays of `samples` (rows as
   /// in `particles`); those that `coupling step.needed` does not name are null. Returns the signal that asks the fluid
   /// side to stop, or 0.
-  virtual int meet(const CouplingStep& coupling_step, const ParticleArrays& particles,
-                   const FluidSamples& samples) = 0;
+  virtual int meet(const CouplingStep& coupling_step, const ParticleArrays& particles, const FluidSamples& samples) = 0;
   /// With DemTerms::overlap, after a coupling step: DEM begins an interval, and so does the flow, with the particles
   /// and impulses of that coupling step; meet() then only exchanges. Returns at once where the fluid is another job.
   virtual void advance() = 0;

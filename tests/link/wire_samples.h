@@ -119,7 +119,7 @@ inline std::vector<link::wire::Bytes> valid_messages() {
   dem.interval = 40;
   dem.needed = kAsked;
   link::FluidTerms fluid;
-  fluid.offered = kKnownQuantities;
+  fluid.offered = link::kAllQuantities;
   return {encode(dem),
           encode(fluid),
           encode_refusal("no"),

@@ -79,7 +79,7 @@ TEST(Wire, TermsArriveAsSent) {
 
   FluidTerms fluid;
   fluid.time_step = 5e-3;
-  fluid.offered = wire::kKnownQuantities;
+  fluid.offered = eccentra::link::kAllQuantities;
   fluid.fluid_density = 1000;
   fluid.domain.high[1] = 2;
   fluid.rheology = {2, 0.5, 0.8};
@@ -89,7 +89,7 @@ TEST(Wire, TermsArriveAsSent) {
   const FluidTerms back = wire::decode_fluid_terms(view(wire::encode(fluid)));
   EXPECT_EQ(back.time_step, 5e-3);
   EXPECT_EQ(back.layout, 99u);
-  EXPECT_EQ(back.offered, wire::kKnownQuantities);
+  EXPECT_EQ(back.offered, eccentra::link::kAllQuantities);
   EXPECT_EQ(back.fluid_density, 1000);
   EXPECT_EQ(back.domain.high[1], 2);
   EXPECT_EQ(back.rheology.yield_stress, 2);
