@@ -40,7 +40,7 @@ void fluidRequests::add(const link::CouplingStep& couplingStep, bool extents) {
 void fluidRequests::print(const link::CouplingStep& couplingStep, bool extents, double time, int cells, double length) {
   Info << "coupling, t " << time << " s: " << int(couplingStep.totals.particles) << " particles on " << cells
        << " cells; the fluid is asked for "
-       << (couplingStep.needed ? link::names_of(couplingStep.needed, " ") : "nothing") << "; "
+       << (couplingStep.needed ? link::names_of(couplingStep.needed, " ").c_str() : "nothing") << "; "
        << int(bytesToFluid(extents)) << " bytes per particle to the fluid, "
        << int(bytesToParticles(couplingStep.needed)) << " back; spreading length " << length << " m" << endl;
 }
