@@ -4,6 +4,7 @@
 #include "closures/drag_table.h"
 
 #include "closures/drag_effect.h"
+#include "closures/oriented_drag.h"
 
 namespace eccentra::closures {
 
@@ -13,6 +14,11 @@ template <class Law> std::unique_ptr<Effect> make_drag(const char* name, const R
   if (fluid.newtonian())
     return std::make_unique<DragEffect<NewtonianStress, Law>>(name, fluid);
   return std::make_unique<DragEffect<HerschelBulkleyStress, Law>>(name, fluid);
+}
+template <class Law> std::unique_ptr<Effect> make_oriented(const char* name, const Rheology& fluid) {
+  if (fluid.newtonian())
+    return std::make_unique<OrientedDrag<NewtonianStress, Law>>(name, fluid);
+  return std::make_unique<OrientedDrag<HerschelBulkleyStress, Law>>(name, fluid);
 }
 
 template <class Law>
@@ -28,12 +34,20 @@ double force(const ShapeFactors& shape, const DragPlace& place, const Rheology& 
 
 /// A law that defines its own use of the fraction.
 template <class Law> constexpr DragLaw row(const char* name, double yield_weight = kAnsleySmith) {
-  return {name, &make_drag<Law>, &make_drag<Law>, &reduced<Law>, &force<Law>, yield_weight};
+  return {name,          &make_drag<Law>, &make_drag<Law>, &make_oriented<Law>, &make_oriented<Law>,
+          &reduced<Law>, &force<Law>,     yield_weight};
+}
+/// A law of packed beds, in which K of a single particle has no place.
+template <class Law> constexpr DragLaw bed(const char* name) {
+  DragLaw made = row<Law>(name);
+  made.make_oriented = made.make_oriented_void_reynolds = nullptr;
+  return made;
 }
 /// A single-particle law: alpha^-1.65 C_D(Re), or C_D(alpha Re).
 template <class Single> constexpr DragLaw suspended(const char* name) {
   DragLaw made = row<Suspended<Single>>(name);
   made.make_void_reynolds = &make_drag<Suspended<Single, true>>;
+  made.make_oriented_void_reynolds = &make_oriented<Suspended<Single, true>>;
   return made;
 }
 
@@ -44,7 +58,7 @@ constexpr DragLaw kDragLaws[] = {
     suspended<Ganser>("ganser"),
     suspended<HoelzerSommerfeld>("holzer_sommerfeld"),
     row<Suspended<SchillerNaumann, true>>("wen_yu"),
-    row<Gidaspow>("gidaspow"),
+    bed<Gidaspow>("gidaspow"),
     row<DiFelice>("di_felice"),
     row<Qkqy>("qkqy", Qkqy::kOwnYieldWeight),
 };

@@ -15,6 +15,9 @@ struct DragLaw {
   const char* name;
   std::unique_ptr<Effect> (*make)(const char* name, const Rheology&);
   std::unique_ptr<Effect> (*make_void_reynolds)(const char* name, const Rheology&); ///< with alpha Re in place of Re
+  /// The same on the real shape (OrientedDrag); null for a law of beds that knows no single particle.
+  std::unique_ptr<Effect> (*make_oriented)(const char* name, const Rheology&);
+  std::unique_ptr<Effect> (*make_oriented_void_reynolds)(const char* name, const Rheology&);
   /// G(Re) = C_D Re of one particle of this shape in its place, and dG/dRe; Re >= 0 as the law defines it.
   ValueAndSlope (*reduced)(const ShapeFactors&, const DragPlace&, const Rheology&, double re);
   /// F(U) [N] of one particle of diameter d [m] at the slip speed U [m/s] > 0, with the weights of the rheology.

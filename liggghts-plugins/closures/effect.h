@@ -14,6 +14,7 @@
 namespace eccentra::closures {
 
 struct ShapeFactors;
+struct OrientedShape;
 
 /// The shapes of a scene, for effects. A "kind" is the number of a shape that particles share.
 class ShapeCatalogue {
@@ -25,6 +26,11 @@ class ShapeCatalogue {
   virtual double inertia_factor(int kind) const = 0;
   /// phi_perp of local atom i for a flow along `direction` (any length, world frame); 1 for a plain sphere.
   virtual double crosswise_sphericity(int i, const double* direction) const = 0;
+  /// What forces of the real shape need; null for plain spheres. Solved or read at the first call of a kind: for
+  /// set-up, by all ranks together. Valid until the shapes change.
+  virtual const OrientedShape* oriented(int) const { return nullptr; }
+  /// Turns the body frame of local atom i into the world: w x y z; null for a plain sphere.
+  virtual const double* quaternion(int) const { return nullptr; }
 };
 
 /// The particles of one rank at one half step of the integrator, as plain arrays; rows are local atoms.

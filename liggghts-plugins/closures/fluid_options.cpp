@@ -8,9 +8,11 @@
 #include "closures/body_forces.h"
 #include "closures/drag_table.h"
 #include "closures/lift_effects.h"
+#include "closures/oriented_torques.h"
 #include "closures/rotational_drag.h"
 
 #include <set>
+#include <tuple>
 
 namespace eccentra::closures {
 
@@ -64,6 +66,32 @@ void weigh_stress(FluidOptions& options, const std::set<std::string>& said) {
     fluid.yield_weight = options.beris_yield ? beris_yield_weight(*law, fluid) : law->own_yield_weight;
 }
 
+void check_orientation(const FluidOptions& options) {
+  const DragLaw* law = find_drag_law(options.drag);
+  if (options.oriented && !law && !options.drag_torque)
+    refuse(
+        "keyword 'oriented': 'on' has no force to give a shape to, for there is neither drag nor drag_torque; add drag "
+        "NAME, or drag_torque dennis");
+  if (options.oriented && law && !law->make_oriented)
+    refuse(
+        "keyword 'oriented': 'on' is not for drag {}, which was measured on packed beds and knows no single particle; "
+        "expected oriented off, or another drag law",
+        options.drag);
+  for (const auto& [word, value, on] : {std::tuple{"strain_torque", "jeffery", options.strain_torque},
+                                        std::tuple{"pitching_torque", "dabade", options.pitching_torque}}) {
+    if (on && !options.oriented)
+      refuse("keyword '{}': '{}' is a torque on the real shape, but 'oriented' is off; add oriented on", word, value);
+    if (on && !options.drag_torque)
+      refuse("keyword '{}': '{}' drives a spin that nothing resists; add drag_torque dennis", word, value);
+  }
+}
+
+template <template <class> class Torque> std::unique_ptr<Effect> make_torque(const Rheology& fluid) {
+  if (fluid.newtonian())
+    return std::make_unique<Torque<NewtonianStress>>(fluid);
+  return std::make_unique<Torque<HerschelBulkleyStress>>(fluid);
+}
+
 } // namespace
 
 FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int atom_types) {
@@ -93,6 +121,12 @@ FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int a
       options.rotational_lift = reader.choice({"oesterle_bui_dinh", "none"}) != "none";
     } else if (keyword == "drag_torque") {
       options.drag_torque = reader.choice({"dennis", "none"}) != "none";
+    } else if (keyword == "oriented") {
+      options.oriented = reader.on_off();
+    } else if (keyword == "strain_torque") {
+      options.strain_torque = reader.choice({"jeffery", "none"}) != "none";
+    } else if (keyword == "pitching_torque") {
+      options.pitching_torque = reader.choice({"dabade", "none"}) != "none";
     } else if (keyword == "buoyancy") {
       options.buoyancy = reader.on_off();
     } else if (keyword == "pressure_gradient") {
@@ -109,7 +143,8 @@ FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int a
       read_sphericity(reader, options, atom_types);
     } else {
       reader.unknown("rheology, density, drag, void_reynolds, power_law_factor, yield_weight, shear_lift, "
-                     "rotational_lift, drag_torque, pressure_gradient, viscous_stress, buoyancy, sphericity, screen, "
+                     "rotational_lift, drag_torque, oriented, strain_torque, pitching_torque, pressure_gradient, "
+                     "viscous_stress, buoyancy, sphericity, screen, "
                      "screen_steps, screen_recheck");
     }
   }
@@ -122,6 +157,7 @@ FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int a
       if (said.count(word))
         refuse("keyword '{}' says how to screen, but 'screen' is missing; add screen TOLERANCE", word);
     weigh_stress(options, said);
+    check_orientation(options);
     return options;
   }
   // A screen judges every effect that the script has not itself decided on.
@@ -135,6 +171,12 @@ FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int a
   for (const auto& [word, on] : optional)
     if (!said.count(word))
       *on = true;
+  // Of the real shape only where the script wants it.
+  if (options.oriented) {
+    options.strain_torque = options.strain_torque || (!said.count("strain_torque") && options.drag_torque);
+    options.pitching_torque = options.pitching_torque || (!said.count("pitching_torque") && options.drag_torque);
+  }
+  check_orientation(options);
   weigh_stress(options, said);
   return options;
 }
@@ -153,11 +195,17 @@ EffectList make_effects(const FluidOptions& options) {
   if (options.rotational_lift)
     effects.push_back(std::make_unique<RotationalLift>(fluid));
   if (const DragLaw* law = find_drag_law(options.drag))
-    effects.push_back((options.void_reynolds ? law->make_void_reynolds : law->make)(law->name, fluid));
-  if (options.drag_torque && fluid.newtonian())
-    effects.push_back(std::make_unique<RotationalDrag<NewtonianStress>>(fluid));
-  else if (options.drag_torque)
-    effects.push_back(std::make_unique<RotationalDrag<HerschelBulkleyStress>>(fluid));
+    effects.push_back(
+        options.oriented
+            ? (options.void_reynolds ? law->make_oriented_void_reynolds : law->make_oriented)(law->name, fluid)
+            : (options.void_reynolds ? law->make_void_reynolds : law->make)(law->name, fluid));
+  if (options.pitching_torque)
+    effects.push_back(std::make_unique<PitchingTorque>(fluid));
+  if (options.strain_torque)
+    effects.push_back(make_torque<StrainTorque>(fluid));
+  if (options.drag_torque)
+    effects.push_back(options.oriented ? make_torque<OrientedRotationalDrag>(fluid)
+                                       : make_torque<RotationalDrag>(fluid));
   return effects;
 }
 

@@ -21,6 +21,9 @@ struct FluidOptions {
   bool shear_lift = false;
   bool rotational_lift = false;
   bool drag_torque = false;
+  bool oriented = false;        ///< drag and drag_torque of the real shape
+  bool strain_torque = false;   ///< with oriented
+  bool pitching_torque = false; ///< with oriented
   bool buoyancy = true;
   bool pressure_gradient = false;
   bool viscous_stress = false;
@@ -32,7 +35,8 @@ struct FluidOptions {
 /// word, its value and the remedy.
 FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int atom_types);
 
-/// The effects that are on, in the order in which they act: volume forces, lifts, drag (implicit against all others).
+/// The effects that are on, in the order in which they act: volume forces, lifts, drag (implicit against all
+/// others), torques, the one that resists the spin last.
 EffectList make_effects(const FluidOptions& options);
 
 } // namespace eccentra::closures

@@ -45,6 +45,13 @@ constexpr PointQuantity kPointQuantities[] = {
      [](const flowAtPoints& flow, const flowAtPoints::Place& place, double* values) {
        put(2.0 * (*skew(flow.gradU(place))), values);
      }},
+    {link::kVelocityGradient, true,
+     [](const flowAtPoints& flow, const flowAtPoints::Place& place, double* values) {
+       const tensor gradient(flow.gradU(place)); // d u_c/d x_r: the other way round
+       for (int r = 0; r < 3; ++r)
+         for (int c = 0; c < 3; ++c)
+           values[3 * r + c] = gradient(c, r);
+     }},
 };
 
 bool needsGradU(unsigned asked) {

@@ -17,6 +17,7 @@ enum Quantity : unsigned {
   kPressureGradient = 1u << 2, ///< grad p_rgh [Pa/m], with the gradient that drives a periodic section
   kStressDivergence = 1u << 3, ///< div tau [N/m3], viscous stress of the fluid
   kVorticity = 1u << 4,        ///< curl u_f [1/s]
+  kVelocityGradient = 1u << 5, ///< d u_r/d x_c by rows [1/s]
 };
 
 /// One quantity: its bit, the word for it in scripts and reports, doubles per particle (1 a scalar, 3 a vector, 9 a
@@ -36,6 +37,7 @@ inline constexpr FlowQuantity kFlowQuantities[] = {
     {kPressureGradient, "pressure_gradient", 3, 0.0},
     {kStressDivergence, "stress_divergence", 3, 0.0},
     {kVorticity, "vorticity", 3, 0.0},
+    {kVelocityGradient, "velocity_gradient", 9, 0.0},
 };
 inline constexpr int kFlowQuantityCount = sizeof kFlowQuantities / sizeof kFlowQuantities[0];
 /// The set of all quantities.
@@ -96,12 +98,14 @@ class FluidSamples : public PerQuantity<double*> {
  public:
   using Vectors = double (*)[3];
   using Scalars = double*;
+  using Tensors = double (*)[9];
 
   Vectors velocity() const { return rows<kVelocity>(); }
   Scalars fraction() const { return (*this)[kFraction]; }
   Vectors pressure_gradient() const { return rows<kPressureGradient>(); }
   Vectors stress_divergence() const { return rows<kStressDivergence>(); }
   Vectors vorticity() const { return rows<kVorticity>(); }
+  Tensors velocity_gradient() const { return rows<kVelocityGradient>(); }
 
  private:
   template <Quantity bit> auto rows() const -> double (*)[columns_of(bit)] {

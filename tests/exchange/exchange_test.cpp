@@ -40,7 +40,7 @@ int ranks() {
 struct Scene {
   std::vector<std::array<double, 3>> position, impulse, velocitySample, pressureSample, vorticitySample;
   std::vector<double> volume, drag, fractionSample;
-  std::vector<std::array<double, 9>> extent;
+  std::vector<std::array<double, 9>> extent, gradientSample;
   std::vector<link::CellHint> cell_hint;
   int dealt = 0;
 
@@ -269,6 +269,8 @@ TEST(Exchange, LinearFieldsAreSampledExactly) {
   link::FluidSamples samples = scene.samples();
   samples[link::kFraction] = nullptr;
   samples[link::kPressureGradient] = nullptr;
+  scene.gradientSample.resize(scene.position.size());
+  samples[link::kVelocityGradient] = reinterpret_cast<double*>(scene.gradientSample.data());
   exchange.sample(flow, particles, samples);
   int checked = 0;
   for (std::size_t i = 0; i < scene.position.size(); ++i) {
@@ -285,6 +287,9 @@ TEST(Exchange, LinearFieldsAreSampledExactly) {
     EXPECT_NEAR(scene.vorticitySample[i][2], b - a, 1e-7);
     EXPECT_NEAR(scene.vorticitySample[i][0], 1, 1e-7);
     EXPECT_NEAR(scene.vorticitySample[i][1], -5, 1e-7);
+    const std::array<double, 9> gradient{0, a, 0, b, 0, 0, 5, 1, 0}; // d u_r/d x_c by rows r
+    for (int k = 0; k < 9; ++k)
+      EXPECT_NEAR(scene.gradientSample[i][k], gradient[k], 1e-7) << k;
   }
   EXPECT_GT(Foam::returnReduce(checked, Foam::sumOp<int>()), 100);
 }

@@ -30,7 +30,8 @@ const styles::RegisterFix<FixFluidForce>
     kRecord("fluid/force", "drag, lift, pressure, stress and buoyancy forces of a Herschel-Bulkley fluid on particles");
 
 constexpr const char* kEffectOrder[] = {"drag",           "shear_lift", "rotational_lift", "pressure_gradient",
-                                        "viscous_stress", "buoyancy",   "drag_torque"};
+                                        "viscous_stress", "buoyancy",   "drag_torque",     "strain_torque",
+                                        "pitching_torque"};
 constexpr int kDimension = 3;
 
 } // namespace

@@ -83,7 +83,8 @@ class FixFluidForce : public LAMMPS_NS::Fix {
   void restart(char* buffer) override;
   double memory_usage() override;
   /// Sums of force over all particles [N], x y z of: drag, shear_lift, rotational_lift, pressure_gradient,
-  /// viscous_stress, buoyancy; then of the rotational drag torque [N m]. 0 for what is off.
+  /// viscous_stress, buoyancy; then of drag_torque, strain_torque
+  /// and pitching_torque [N m]. 0 for what is off.
   double compute_vector(int n) override;
 
  private:

@@ -38,9 +38,9 @@ struct Word {
   double otherwise;
 };
 
-/// The vorticity is the curl of velocity_gradient; every other quantity of the flow is a keyword.
+/// The vorticity is the curl of velocity_gradient, which is a keyword of its own; every other quantity is one, too.
 constexpr bool has_keyword(link::Quantity quantity) {
-  return quantity != link::kVorticity;
+  return quantity != link::kVorticity && quantity != link::kVelocityGradient;
 }
 
 /// Those of the quantities follow those of velocity_gradient and origin.
@@ -185,6 +185,9 @@ void FixFluidUniform::fill() {
       if (flow.velocity())
         for (int c = 0; c < 3; ++c)
           flow.velocity()[i][r] += gradient(i, r, c) * (atom->x[i][c] - values_[kOriginAt + c].at(i));
+      if (flow.velocity_gradient())
+        for (int c = 0; c < 3; ++c)
+          flow.velocity_gradient()[i][3 * r + c] = gradient(i, r, c);
       if (flow.vorticity())
         flow.vorticity()[i][r] = gradient(i, (r + 2) % 3, (r + 1) % 3) - gradient(i, (r + 1) % 3, (r + 2) % 3);
     }

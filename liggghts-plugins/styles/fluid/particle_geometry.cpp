@@ -3,6 +3,7 @@
 // Implements ParticleGeometry on LIGGGHTS's atoms.
 #include "styles/fluid/particle_geometry.h"
 
+#include "shape/resistance_cache.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 
 #include <mpi.h>
@@ -24,6 +25,8 @@ void ParticleGeometry::init() {
   bodies_ = styles::FixClusterBodies::find(lmp_);
   if (bodies_)
     areas_.resize(bodies_->shapes().size());
+  if (bodies_)
+    oriented_.resize(bodies_->shapes().size());
 }
 
 void ParticleGeometry::refresh() {
@@ -81,6 +84,34 @@ double ParticleGeometry::crosswise_sphericity(int i, const double* direction) co
   const Eigen::Vector3d body = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * world;
   const double radius = cluster.equivalent_radius();
   return closures::kPi * radius * radius / areas_[id]->at(body);
+}
+
+// Rank 0 solves or reads, so that all ranks have the same digits and one of them writes the cache.
+const closures::OrientedShape* ParticleGeometry::oriented(int kind) const {
+  const int id = kind - lmp_->atom->ntypes - 1;
+  if (id < 0)
+    return nullptr;
+  const shape::ClusterShape& cluster = bodies_->shapes()[id];
+  if (cluster.spheres().size() == 1)
+    return nullptr; // a sphere, to the last digit
+  if (!oriented_[id]) {
+    shape::Resistance resistance;
+    int rank = 0;
+    MPI_Comm_rank(lmp_->world, &rank);
+    if (rank == 0)
+      resistance = shape::cached_resistance(cluster);
+    MPI_Bcast(&resistance, sizeof resistance, MPI_BYTE, 0, lmp_->world);
+    const double d = 2.0 * cluster.equivalent_radius();
+    oriented_[id] = std::make_unique<closures::OrientedShape>(closures::oriented_shape(
+        resistance, cluster.inertia_per_mass() / (d * d), [&](const Eigen::Vector3d& direction) {
+          return closures::projected_area(cluster.spheres(), direction) / (d * d);
+        }));
+  }
+  return oriented_[id].get();
+}
+
+const double* ParticleGeometry::quaternion(int i) const {
+  return bodies_ ? bodies_->quaternion(i) : nullptr;
 }
 
 double ParticleGeometry::radius_of(int i) const {

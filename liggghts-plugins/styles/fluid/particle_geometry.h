@@ -5,6 +5,7 @@
 
 #include "closures/drag_laws.h"
 #include "closures/effect.h"
+#include "closures/oriented_shape.h"
 #include "closures/rheology.h"
 
 #include "closures/projected_area.h"
@@ -43,6 +44,8 @@ class ParticleGeometry : public closures::ShapeCatalogue {
   closures::ShapeFactors factors(int kind) const override;
   double inertia_factor(int kind) const override;
   double crosswise_sphericity(int i, const double* direction) const override;
+  const closures::OrientedShape* oriented(int kind) const override;
+  const double* quaternion(int i) const override;
 
   double volume(int i) const { return closures::sphere_volume(radius_of(i)); }
   double diameter(int i) const { return 2.0 * radius_of(i); }
@@ -56,6 +59,7 @@ class ParticleGeometry : public closures::ShapeCatalogue {
   std::vector<double> radius_;
   std::vector<int> kind_;
   mutable std::vector<std::unique_ptr<closures::ProjectedAreaTable>> areas_; ///< by shape id, made at first use
+  mutable std::vector<std::unique_ptr<closures::OrientedShape>> oriented_;   ///< the same
 };
 
 } // namespace eccentra::styles
