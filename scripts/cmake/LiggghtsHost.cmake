@@ -1,9 +1,23 @@
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The stock LIGGGHTS that Debian installs, as the interface target liggghts_host.
-find_path(LIGGGHTS_INCLUDE_DIR lammps.h PATH_SUFFIXES liggghts)
-find_library(LIGGGHTS_LIBRARY liggghts)
-find_program(LIGGGHTS_EXECUTABLE liggghts)
+# The stock LIGGGHTS, as the interface target liggghts_host: Debian's package, or (ECCENTRA_LIGGGHTS_DIR) a LIGGGHTS-PUBLIC that
+# was built in its own src folder with its shared library.
+set(ECCENTRA_LIGGGHTS_DIR "" CACHE PATH "Folder of LIGGGHTS-PUBLIC built from source; empty: Debian's package")
+if(ECCENTRA_LIGGGHTS_DIR)
+  set(_own HINTS "${ECCENTRA_LIGGGHTS_DIR}/src" NO_DEFAULT_PATH)
+  find_path(LIGGGHTS_INCLUDE_DIR lammps.h ${_own})
+  find_library(LIGGGHTS_LIBRARY NAMES liggghts lmp_auto lmp_fedora lmp ${_own})
+  find_program(LIGGGHTS_EXECUTABLE NAMES liggghts lmp_auto lmp_fedora lmp ${_own})
+  if(NOT LIGGGHTS_INCLUDE_DIR OR NOT LIGGGHTS_LIBRARY OR NOT LIGGGHTS_EXECUTABLE)
+    message(FATAL_ERROR "ECCENTRA_LIGGGHTS_DIR: '${ECCENTRA_LIGGGHTS_DIR}' has no src/lammps.h beside the program lmp_auto and its "
+      "library liblmp_auto.so: build LIGGGHTS-PUBLIC there with 'make auto' and 'make -f Makefile.shlib auto'")
+  endif()
+  list(APPEND CMAKE_INSTALL_RPATH "${ECCENTRA_LIGGGHTS_DIR}/src")
+else()
+  find_path(LIGGGHTS_INCLUDE_DIR lammps.h PATH_SUFFIXES liggghts)
+  find_library(LIGGGHTS_LIBRARY liggghts)
+  find_program(LIGGGHTS_EXECUTABLE liggghts)
+endif()
 if(NOT LIGGGHTS_INCLUDE_DIR OR NOT LIGGGHTS_LIBRARY OR NOT LIGGGHTS_EXECUTABLE)
   message(FATAL_ERROR "LIGGGHTS is not installed: run scripts/setup (packages liggghts and libliggghts-dev)")
 endif()

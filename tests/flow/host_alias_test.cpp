@@ -24,7 +24,8 @@ template <class Type> scalar largest_error(const Field<Type>& value, const Field
   return error;
 }
 
-/// Largest error of operators whose result reuses the storage of an operand, against the same without reuse.
+/// Largest error of operators whose result reuses the storage of an operand, against the same without reuse. At -O3 g++ 12
+/// and 13 break the first three, g++ 14 the fourth.
 scalar in_place_error() {
   Random random(1);
   tensorField a(kSize), b(kSize);
@@ -39,6 +40,7 @@ scalar in_place_error() {
   error = max(error, largest_error(vectorField(a & tmp<vectorField>(new vectorField(v))), vectorField(a & v)));
   error = max(error, largest_error(vectorField(tmp<vectorField>(new vectorField(v)) & a), vectorField(v & a)));
   error = max(error, largest_error(tensorField(tmp<tensorField>(new tensorField(a)) & b), tensorField(a & b)));
+  error = max(error, largest_error(tensorField(a & tmp<tensorField>(new tensorField(b))), tensorField(a & b)));
   error = max(error, largest_error(vectorField(tmp<vectorField>(new vectorField(v)) ^ w), vectorField(v ^ w)));
   return error;
 }

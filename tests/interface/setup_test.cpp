@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // scripts/setup on machines that lack something: one sentence each, nothing half done, nothing done twice.
+#include "support/read_file.h"
 #include "support/run_program.h"
 
 #include <gtest/gtest.h>
@@ -79,8 +80,22 @@ TEST_F(Setup, SecondRunAsksAptForNothing) {
 TEST_F(Setup, AnotherDistribution) {
   write_file(folder / "os-release", "ID=fedora\nVERSION_ID=41\n");
   expect_one_sentence(setup({}, {"ECCENTRA_OS_RELEASE=" + (folder / "os-release").string()}),
-                      {"fedora 41", "Debian 12", "container"});
+                      {"fedora 41", "Debian 12", "Debian 13", "Ubuntu 24.04", "container"});
   expect_one_sentence(setup({}, {"ECCENTRA_OS_RELEASE=/nowhere"}), {"unknown", "Debian 12"});
+}
+
+// Ubuntu's archive has a name and a keyring of its own.
+TEST_F(Setup, Ubuntu) {
+  write_file(folder / "os-release", "ID=ubuntu\nVERSION_ID=\"24.04\"\n");
+  put_in_front("apt-get", "case $* in *indextargets*) echo 'Ubuntu|http://archive.example/ubuntu|noble|universe'; "
+                          "echo 'Debian|http://archive.example/debian|bookworm|main'; exit 0;; esac; "
+                          "cp ../sources.list '" +
+                              folder.string() + "/'; echo 'E: Could not resolve host'; exit 100");
+  const ProgramResult run = setup({"--packages-only"}, {"ECCENTRA_OS_RELEASE=" + (folder / "os-release").string()});
+  EXPECT_EQ(run.status, 1) << run.output;
+  EXPECT_NE(run.output.find("expected to work"), std::string::npos) << run.output;
+  EXPECT_EQ(contents(folder / "sources.list"), "deb-src [signed-by=/usr/share/keyrings/ubuntu-archive-keyring.gpg] "
+                                               "http://archive.example/ubuntu noble universe\n");
 }
 
 TEST_F(Setup, PackagesWithoutNetwork) {
@@ -109,6 +124,16 @@ TEST_F(Setup, UnknownWords) {
   expect_one_sentence(setup({"--fast"}), {"'--fast'", "--help"});
   expect_one_sentence(setup({"--preset"}), {"--preset"});
   EXPECT_EQ(setup({"--help"}).status, 0);
+}
+
+// Hosts of one's own: what they must bring is asked for before anything is installed.
+TEST_F(Setup, HostsBuiltFromSource) {
+  expect_one_sentence(setup({"--openfoam"}, {"WM_PROJECT_DIR=", "FOAM_LIBBIN="}),
+                      {"--openfoam", "WM_PROJECT_DIR", "etc/bashrc"});
+  expect_one_sentence(setup({"--openfoam"}, {"WM_PROJECT_DIR=/nowhere", "FOAM_LIBBIN=/nowhere"}),
+                      {"'/nowhere'", "api-info", "lnInclude"});
+  expect_one_sentence(setup({"--liggghts", "/nowhere"}), {"'/nowhere'", "src/lammps.h"});
+  expect_one_sentence(setup({"--liggghts"}), {"--liggghts", "folder"});
 }
 
 TEST_F(Setup, HeadersOfAnotherVersionAreRefused) {

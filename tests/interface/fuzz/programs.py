@@ -9,8 +9,9 @@ import signal
 import subprocess
 import tempfile
 
-ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "WM_PROJECT_DIR": "/usr/share/openfoam",
-               "OMPI_MCA_btl_vader_single_copy_mechanism": "none", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "WM_PROJECT_DIR": os.environ.get("WM_PROJECT_DIR", "/usr/share/openfoam"),
+               "OMPI_MCA_btl_vader_single_copy_mechanism": "none", "OMPI_MCA_smsc": "^cma",
+               "OMPI_MCA_rmaps_base_oversubscribe": "1", "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe"}
 CRASHES = ("Segmentation fault", "terminate called", "Sanitizer", "runtime error:", "Signal code:", "Floating point exception")
 # As tests/interface/bad_input_test.cpp reads them.
 SAID = re.compile(r"^(\[\d+\] )?((ERROR( on proc \d+)?|[A-Za-z-]+: error): |clusterShape: |annulusFoam: the DEM script ended)")
