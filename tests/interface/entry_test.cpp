@@ -1,10 +1,14 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How libeccentra enters LIGGGHTS: by the launcher, by preloading, and not at all into another version.
+#include "support/read_file.h"
 #include "support/run_program.h"
 
 #include <gtest/gtest.h>
 
+#include <elf.h>
+
+#include <cstring>
 #include <regex>
 
 namespace {
@@ -111,6 +115,49 @@ TEST(VersionGuard, RefusesAnotherLiggghtsWithOneSentence) {
   EXPECT_EQ(count(run.output, "built against LIGGGHTS-PUBLIC 9.9.9"), 1) << run.output;
   EXPECT_NE(run.output.find("scripts/setup"), std::string::npos) << "the sentence names the remedy\n" << run.output;
   EXPECT_EQ(run.output.find("Loop time"), std::string::npos) << "it must not run\n" << run.output;
+}
+
+/// The library with its calls bound inside itself, as -Bsymbolic does.
+std::string bound_to_itself(std::string library) {
+  const auto at = [&library](auto kind, std::size_t offset) {
+    std::memcpy(&kind, &library.at(offset), sizeof kind);
+    return kind;
+  };
+  const auto header = at(Elf64_Ehdr{}, 0);
+  for (int part = 0; part < header.e_phnum; ++part) {
+    const auto program = at(Elf64_Phdr{}, header.e_phoff + part * sizeof(Elf64_Phdr));
+    if (program.p_type != PT_DYNAMIC)
+      continue;
+    for (auto offset = program.p_offset; offset < program.p_offset + program.p_filesz; offset += sizeof(Elf64_Dyn)) {
+      auto entry = at(Elf64_Dyn{}, offset);
+      if (entry.d_tag != DT_FLAGS)
+        continue;
+      entry.d_un.d_val |= DF_SYMBOLIC;
+      std::memcpy(&library.at(offset), &entry, sizeof entry);
+      return library;
+    }
+  }
+  throw std::runtime_error("the library has no DT_FLAGS");
+}
+
+// There our definitions are never reached: every check of ours would be passed over in silence.
+TEST(Preload, ALibraryThatCallsItselfIsRefused) {
+  const auto folder = fresh_folder("symbolic");
+  write_file(folder / "in.x", minimal_script);
+  const std::string linked = run_program({"ldd", launcher()}).output;
+  std::smatch path;
+  ASSERT_TRUE(std::regex_search(linked, path, std::regex(R"((libliggghts\S*) => (\S+))"))) << linked;
+  write_file(folder / path.str(1), bound_to_itself(contents(path.str(2))));
+  for (const std::vector<std::string>& program : {std::vector<std::string>{"liggghts"}, {launcher()}}) {
+    std::vector<std::string> command = program;
+    command.insert(command.end(), {"-in", "in.x", "-log", "none"});
+    const ProgramResult run = run_program(
+        command, {folder, {"LD_LIBRARY_PATH=" + folder.string(), "LD_PRELOAD=" + preload_of_eccentra()}, 30});
+    EXPECT_NE(run.status, 0) << run.output;
+    EXPECT_EQ(count(run.output, "-Bsymbolic-functions"), 1) << run.output;
+    EXPECT_NE(run.output.find("scripts/setup --liggghts"), std::string::npos) << run.output;
+    EXPECT_EQ(run.output.find("Loop time"), std::string::npos) << "it must not run\n" << run.output;
+  }
 }
 
 } // namespace

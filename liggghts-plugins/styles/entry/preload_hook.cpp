@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // LIGGGHTS has no plug-in loader. Its library is not linked -Bsymbolic, so a definition of ours comes first, whether we
 // were preloaded into the stock binary or linked into a launcher: before a script is read, we enter.
+#include "styles/entry/host_symbols.h"
 #include "styles/entry/script_replay.h"
 #include "styles/entry/style_registry.h"
 
@@ -29,6 +30,25 @@ template <class Function> Function next_definition(const char* mangled_name) {
   return reinterpret_cast<Function>(dlsym(RTLD_NEXT, mangled_name));
 }
 
+constexpr char kExecuteCommand[] = "_ZN9LAMMPS_NS5Input15execute_commandEv";
+constexpr char kInit[] = "_ZN9LAMMPS_NS6LAMMPS4initEv";
+constexpr char kWriteRestart[] = "_ZN9LAMMPS_NS12WriteRestart5writeEPc";
+constexpr char kAddDump[] = "_ZN9LAMMPS_NS6Output8add_dumpEiPPc";
+
+/// The library calls these four itself. One that was linked to call its own would run scripts without a check of ours.
+void refuse_a_library_that_passes_us_by(LAMMPS_NS::LAMMPS* lmp) {
+  static bool seen = false;
+  if (seen)
+    return;
+  seen = true;
+  const void* const inside = dlsym(RTLD_DEFAULT, "_ZN9LAMMPS_NS5Input5parseEv"); // we have none of that name
+  if (!eccentra::styles::bound_inside(inside, {kExecuteCommand, kInit, kWriteRestart, kAddDump}).empty())
+    lmp->error->all(
+        FLERR, "libeccentra cannot act in this libliggghts, which was linked with -Bsymbolic-functions as Ubuntu's "
+               "packages are: build LIGGGHTS-PUBLIC " ECCENTRA_LIGGGHTS_VERSION
+               " from source and set Eccentra up with scripts/setup --liggghts FOLDER, or use a container");
+}
+
 /// LIGGGHTS prints its error and calls MPI_Abort, which throws away what a pipe or file has not yet been given: a job's
 /// log would end without the reason. By whole lines, nothing is lost.
 struct LineBufferedOutput {
@@ -48,31 +68,36 @@ eccentra::styles::CommandGuard guard_of(const std::string& command) {
   return of_others;
 }
 
+void enter(LAMMPS_NS::LAMMPS* lmp) {
+  refuse_a_library_that_passes_us_by(lmp);
+  eccentra::styles::enter(lmp);
+}
+
 } // namespace
 
 namespace LAMMPS_NS {
 
 void Input::file() {
-  eccentra::styles::enter(lmp);
+  enter(lmp);
   static const auto stock = next_definition<void (*)(Input*)>("_ZN9LAMMPS_NS5Input4fileEv");
   stock(this);
 }
 
 void Input::file(const char* name) {
-  eccentra::styles::enter(lmp);
+  enter(lmp);
   static const auto stock = next_definition<void (*)(Input*, const char*)>("_ZN9LAMMPS_NS5Input4fileEPKc");
   stock(this, name);
 }
 
 char* Input::one(const char* line) {
-  eccentra::styles::enter(lmp);
+  enter(lmp);
   static const auto stock = next_definition<char* (*)(Input*, const char*)>("_ZN9LAMMPS_NS5Input3oneEPKc");
   return stock(this, line);
 }
 
 // Every command passes here when its arguments are known: of the script, of the command line and of other programs.
 int Input::execute_command() {
-  static const auto stock = next_definition<int (*)(Input*)>("_ZN9LAMMPS_NS5Input15execute_commandEv");
+  static const auto stock = next_definition<int (*)(Input*)>(kExecuteCommand);
   // A command may read another, which takes the place of its arguments.
   const std::string name = command;
   const std::vector<std::string> read_arguments(arg, arg + narg);
@@ -116,12 +141,12 @@ int Input::execute_command() {
 void LAMMPS::init() {
   for (const eccentra::styles::SceneCheck check : eccentra::styles::scene_checks())
     check(this);
-  static const auto stock = next_definition<void (*)(LAMMPS*)>("_ZN9LAMMPS_NS6LAMMPS4initEv");
+  static const auto stock = next_definition<void (*)(LAMMPS*)>(kInit);
   stock(this);
 }
 
 void WriteRestart::write(char* file) {
-  static const auto stock = next_definition<void (*)(WriteRestart*, char*)>("_ZN9LAMMPS_NS12WriteRestart5writeEPc");
+  static const auto stock = next_definition<void (*)(WriteRestart*, char*)>(kWriteRestart);
   stock(this, file);
   for (const eccentra::styles::RestartListener listener : eccentra::styles::restart_listeners())
     listener(lmp, file);
@@ -129,7 +154,7 @@ void WriteRestart::write(char* file) {
 
 // Dump styles are a chain of comparisons, not a map: make a stock dump in our dump's place, then exchange the two.
 void Output::add_dump(int narg, char** arg) {
-  static const auto stock = next_definition<void (*)(Output*, int, char**)>("_ZN9LAMMPS_NS6Output8add_dumpEiPPc");
+  static const auto stock = next_definition<void (*)(Output*, int, char**)>(kAddDump);
   const eccentra::styles::StyleRecord* ours = nullptr;
   for (const auto& record : eccentra::styles::style_records())
     if (record.dump && narg > 2 && record.name == arg[2])

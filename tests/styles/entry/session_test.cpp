@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // LIGGGHTS runs in a test process with our styles: a sphere falls freely by the closed form.
+#include "styles/entry/host_symbols.h"
 #include "support/liggghts_session.h"
 
 #include <gtest/gtest.h>
@@ -49,4 +50,12 @@ TEST(Session, MpiCallsStayTheLibrarys) {
     ASSERT_NE(dladdr(call, &where), 0);
     EXPECT_NE(std::string(where.dli_fname).find("libmpi"), std::string::npos) << where.dli_fname;
   }
+}
+
+// A function that the library calls by the loader, and one that it does not call.
+TEST(Session, CallsThatTheLoaderBindsAreSeen) {
+  const void* const inside = dlsym(RTLD_DEFAULT, "_ZN9LAMMPS_NS5Input5parseEv");
+  const std::string called = "_ZN9LAMMPS_NS5Input15execute_commandEv", never = "_ZN9LAMMPS_NS5Input5neverEv";
+  EXPECT_EQ(eccentra::styles::bound_inside(inside, {called, never}), std::vector<std::string>{never});
+  EXPECT_TRUE(eccentra::styles::bound_inside(nullptr, {called}).empty());
 }
