@@ -3,6 +3,8 @@
 // Implements case_data.h.
 #include "report/case_data.h"
 
+#include "base/scene_file.h"
+
 #include <vtkAppendFilter.h>
 #include <vtkAppendPolyData.h>
 #include <vtkCompositeDataIterator.h>
@@ -41,6 +43,16 @@ std::string text_of(const fs::path& file, const std::string& remedy) {
 std::string without_comments(const std::string& text) {
   static const std::regex comments(R"(//[^\n]*|/\*[^]*?\*/)");
   return std::regex_replace(text, comments, "");
+}
+
+/// The text with the case's own numbers in place of `$:scene.name` and `$scene.name`.
+std::string with_scene(std::string text, const fs::path& folder) {
+  const fs::path file = folder / "scene";
+  if (!fs::is_regular_file(file))
+    return text;
+  for (const auto& [name, value] : base::read_scene(text_of(file, "it has the case's numbers"), file.string()))
+    text = std::regex_replace(text, std::regex("\\$:?scene\\." + name + "\\b"), value);
+  return text;
 }
 
 double entry(const std::string& text, const fs::path& file, const std::string& keyword, double missing, bool required) {
@@ -137,8 +149,8 @@ Case read_case(const fs::path& folder) {
   result.folder = folder;
   result.name = fs::canonical(folder).filename().string();
   const fs::path dictionary = folder / "system" / "annulusMeshDict";
-  const std::string text =
-      without_comments(text_of(dictionary, "a case of annulusFoam has it; give the case folder itself"));
+  const std::string text = with_scene(
+      without_comments(text_of(dictionary, "a case of annulusFoam has it; give the case folder itself")), folder);
   const auto number = [&](const char* keyword) { return entry(text, dictionary, keyword, 0, true); };
   result.section.hole_radius = number("holeRadius");
   result.section.pipe_radius = number("pipeRadius");

@@ -7,6 +7,7 @@
 #include "flow/flowProgress.H"
 #include "flow/timeStepControl.H"
 #include "support/arithmeticFault.H"
+#include "support/commonOptions.H"
 #include "support/fieldWriter.H"
 #include "support/inputError.H"
 #include "support/openfoamFolder.H"
@@ -58,6 +59,7 @@ void run(const argList& args) {
 
 int main(int argc, char* argv[]) {
   const eccentra::patientOutput output;
+  eccentra::answerCommonOptions(argc, argv, "annulusFoam");
   eccentra::refuseUnusableCaseFolder(argc, argv);
   argList::addNote("Flow of a Herschel-Bulkley fluid in an annulus, alone or with particles");
   argList::noBanner();

@@ -3,6 +3,7 @@
 // annulusMesh: system/annulusMeshDict -> constant/polyMesh and constant/g of an inclined eccentric annulus.
 #include "mesh/annulus_grid.h"
 #include "support/arithmeticFault.H"
+#include "support/commonOptions.H"
 #include "support/inputError.H"
 #include "support/openfoamFolder.H"
 
@@ -260,6 +261,7 @@ void run(const argList& args) {
 } // namespace
 
 int main(int argc, char* argv[]) {
+  eccentra::answerCommonOptions(argc, argv, "annulusMesh");
   eccentra::refuseUnusableCaseFolder(argc, argv);
   argList::addNote(
       "Makes the mesh of an inclined eccentric annulus: system/annulusMeshDict -> constant/polyMesh, constant/g");

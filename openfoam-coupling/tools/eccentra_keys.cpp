@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // eccentra-keys: makes the keys of a socket link between machines.
 #include "base/standard_output.h"
+#include "eccentra/version.h"
 #include "link/socket/keys.h"
 
 #include <cstdio>
@@ -10,6 +11,10 @@
 #include <exception>
 
 int main(int argc, char** argv) {
+  if (argc == 2 && !std::strcmp(argv[1], "--version")) {
+    std::printf("eccentra-keys " ECCENTRA_VERSION "\n");
+    return EXIT_SUCCESS;
+  }
   const bool help = argc == 2 && (!std::strcmp(argv[1], "-h") || !std::strcmp(argv[1], "--help"));
   if (argc != 2 || argv[1][0] == '-') {
     std::fprintf(

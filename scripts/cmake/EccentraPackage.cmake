@@ -1,11 +1,37 @@
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cpack makes a .deb of the launcher, libraries, solver, tools, docs and cases.
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/" DESTINATION "${CMAKE_INSTALL_DOCDIR}" FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
-install(FILES "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+# cpack makes a .deb of the launcher, libraries, solver, tools, studies, docs and cases.
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/" DESTINATION "${CMAKE_INSTALL_DOCDIR}" FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg")
+install(FILES "${PROJECT_SOURCE_DIR}/README.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/cases" DESTINATION "${CMAKE_INSTALL_DATADIR}/eccentra" USE_SOURCE_PERMISSIONS
   PATTERN "results*" EXCLUDE PATTERN "run[0-9]*" EXCLUDE PATTERN ".eccentra-bin" EXCLUDE
   PATTERN "CMakeLists.txt" EXCLUDE PATTERN "run-coupled" EXCLUDE)
+
+# The program eccentra and the studies behind it: beside the build's programs it uses those of the source tree.
+set(ECCENTRA_SCRIPTS "${PROJECT_SOURCE_DIR}/scripts")
+configure_file("${PROJECT_SOURCE_DIR}/scripts/study/eccentra.in" "${PROJECT_BINARY_DIR}/bin/eccentra" @ONLY
+  FILE_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(ECCENTRA_SCRIPTS "../share/eccentra/scripts")
+configure_file("${PROJECT_SOURCE_DIR}/scripts/study/eccentra.in" "${PROJECT_BINARY_DIR}/generated/eccentra-installed" @ONLY)
+install(PROGRAMS "${PROJECT_BINARY_DIR}/generated/eccentra-installed" DESTINATION "${CMAKE_INSTALL_BINDIR}" RENAME eccentra)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/scripts/study" DESTINATION "${CMAKE_INSTALL_DATADIR}/eccentra/scripts"
+  PATTERN "__pycache__" EXCLUDE PATTERN "launch" EXCLUDE PATTERN "*.in.in" EXCLUDE PATTERN "eccentra.in" EXCLUDE)
+
+# What Debian wants of a package: who holds which rights, and what has changed.
+file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/generated/copyright" @ONLY CONTENT
+[[Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
+Upstream-Name: eccentra
+
+Files: *
+Copyright: Eccentra contributors
+License: GPL-3.0-or-later
+ On Debian systems the text of the GNU General Public License, version 3, is in /usr/share/common-licenses/GPL-3.
+]])
+install(FILES "${PROJECT_BINARY_DIR}/generated/copyright" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+execute_process(COMMAND gzip -9n INPUT_FILE "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
+  OUTPUT_FILE "${PROJECT_BINARY_DIR}/generated/changelog.gz")
+install(FILES "${PROJECT_BINARY_DIR}/generated/changelog.gz" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/CHANGELOG.md")
 
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON) # a package holds no tests: cpack need not build them
 set(CPACK_GENERATOR DEB)
@@ -22,5 +48,5 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/lib")
 execute_process(COMMAND dpkg-query -W -f "\${Version}" liggghts OUTPUT_VARIABLE _liggghts ERROR_QUIET)
 execute_process(COMMAND dpkg-query -W -f "\${Version}" libopenfoam OUTPUT_VARIABLE _openfoam ERROR_QUIET)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
-  "liggghts (= ${_liggghts}), openfoam (= ${_openfoam}), libopenfoam (= ${_openfoam}), openmpi-bin, python3, xvfb")
+  "liggghts (= ${_liggghts}), openfoam (= ${_openfoam}), libopenfoam (= ${_openfoam}), openmpi-bin, python3, python3-matplotlib, xvfb, xauth, libgl1-mesa-dri")
 include(CPack)

@@ -5,7 +5,7 @@ import re
 import shutil
 
 from . import closure_times, programs, runs, screen, section
-from .programs import ROOT, SCENES, Failure, digest_of, run
+from .programs import INSTALLED, ROOT, SCENES, Failure, digest_of, run
 
 # Steps; the difference is what counts. CPU seconds of such runs scatter by 10 % on a virtual machine, instructions by nothing.
 SHORT, LONG = 600, 1100
@@ -40,6 +40,9 @@ def portable_build(chosen):
     """The build whose instructions are counted: valgrind does not know all those that the fast build may use."""
     build = ROOT / "build-portable"
     if not chosen.plan and not chosen.show:
+        if INSTALLED:
+            raise Failure("what is switched off is counted with a build of its own, for which this installation lacks the sources: run scripts/effects of "
+                          "the source tree")
         if not shutil.which("valgrind"):
             raise Failure("there is no valgrind, which counts the instructions: install Debian's package valgrind")
         run(["cmake", "--preset", "portable", "-DECCENTRA_OPENFOAM=OFF"], ROOT, chosen.out / "portable.log")

@@ -9,7 +9,7 @@ import re
 import sys
 
 from . import runs
-from .programs import ROOT, Failure, need
+from .programs import BUILD, RESULTS, Failure, need
 
 KEPT = "Finished runs are kept: the same command goes on where it stopped."
 # Options that choose what is run and shown, or how: a run's result does not depend on them.
@@ -54,7 +54,7 @@ class Parser(argparse.ArgumentParser):
         by self.error what is wrong with the script's own options, before anything is written."""
         if self.at_once is None:
             self.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="runs at a time (default: the number of cores)")
-        self.add_argument("--build", type=pathlib.Path, default=ROOT / "build", metavar="DIR", help="build folder (default: build)")
+        self.add_argument("--build", type=pathlib.Path, default=BUILD, metavar="DIR", help="build folder (default: build; of an installation: its prefix)")
         self.add_argument("--out", "--output", type=pathlib.Path, metavar="DIR",
                           help=f"tables, charts and runs (default: results/{self.name}{''.join(f'[-{size}]' for size in self.sizes)}, and results/runs)")
         self.add_argument("--again", action="store_true", help="repeat runs that are there")
@@ -72,7 +72,7 @@ class Parser(argparse.ArgumentParser):
         need(chosen.build, *(program if "/" in program else f"bin/{program}" for program in (programs(chosen) if callable(programs) else programs)))
         check(chosen)
         size = next((f"-{size}" for size in self.sizes if getattr(chosen, size, False)), "")
-        results = chosen.out.resolve() if chosen.out else ROOT / "results"
+        results = chosen.out.resolve() if chosen.out else RESULTS
         chosen.out = results if chosen.out else results / f"{self.name}{size}"
         chosen.out.mkdir(parents=True, exist_ok=True)
         # All studies and sizes share the runs, unless the user has named a folder for this one.

@@ -12,11 +12,23 @@ import threading
 import time
 import typing
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent  # of the source tree, or share/eccentra of an installation
+INSTALLED = not (ROOT / "CMakeLists.txt").is_file()
+BUILD = ROOT.parent.parent if INSTALLED else ROOT / "build"  # programs are in its bin
+RESULTS = pathlib.Path.cwd() / "results" if INSTALLED else ROOT / "results"
 CASES = ROOT / "cases"
 SCENES = pathlib.Path(__file__).resolve().parent / "scenes"
 OPENFOAM = "/usr/share/openfoam"  # of Debian's package, where WM_PROJECT_DIR names no other installation
 HOSTS = ("liggghts", "libopenfoam", "libopenmpi3", "lammps", "yade")  # Debian packages whose code takes part in results
+
+
+# Of a build folder, or of the prefix of an installation, which has others' programs beside.
+OURS = ("bin/annulus*", "bin/clusterShape", "bin/eccentra*", "lib/libeccentra*", "lib/*/libeccentra*")
+
+
+def version():
+    """Of Eccentra, as its programs say it."""
+    return output_of([BUILD / "bin" / "eccentra-dem", "--version"]).splitlines()[0]
 
 
 class Failure(Exception):
@@ -44,7 +56,7 @@ def digest_of(*paths):
 def code_of(build):
     """Of all that computes: programs and libraries of a build, the packages of its hosts, the OpenFOAM installation."""
     said = subprocess.run(["dpkg-query", "-W", *HOSTS], capture_output=True, text=True, check=False).stdout if shutil.which("dpkg-query") else ""
-    ours = digest_of(*sorted(file for folder in ("bin", "lib") for file in (build / folder).glob("*") if file.is_file()))
+    ours = digest_of(*sorted(file for pattern in OURS for file in build.glob(pattern) if file.is_file()))
     return hashlib.sha256(" ".join((ours, said, environment()["WM_PROJECT_DIR"])).encode()).hexdigest()[:16]
 
 

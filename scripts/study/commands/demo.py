@@ -46,7 +46,7 @@ def main():
     parser.add_argument("--skip-setup", action="store_true", help="the build is there and up to date")
 
     def check(chosen):
-        if not chosen.skip_setup and not chosen.show and not chosen.plan:
+        if not programs.INSTALLED and not chosen.skip_setup and not chosen.show and not chosen.plan:
             targets = [word for name in ("eccentra", "annulusMesh", "annulusFoam", "annulusReport") for word in ("--target", name)]
             if subprocess.run([ROOT / "scripts" / "setup", *targets], check=False).returncode:
                 raise programs.Failure("the setup failed: see above")

@@ -1,0 +1,140 @@
+# SPDX-FileCopyrightText: Eccentra contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes a case of one's own, whose script, mesh and boundary conditions take every number from one file, and says how it was laid out."""
+import argparse
+import pathlib
+import sys
+
+from .. import scene_files, scene_layout
+from ..programs import Failure
+from ..units import (CONSISTENCY, DENSITY, FLOW, LENGTH, MASS_RATE, PENETRATION, SPEED, STIFFNESS, STRESS, VISCOSITY, both, positive, quantity)
+
+EPILOG = """lengths take m, mm, in, ft; the flow m/s, ft/min (mean velocity) or l/min, gpm, m3/h (volume); densities kg/m3, sg, ppg;
+stresses Pa, lbf/100ft2; a number without a unit is SI. Everything can be changed afterwards in the file scene of the case, or for one run
+by its options (run --help)."""
+
+
+def share(what, text, low, high):
+    """A plain number within bounds."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = high + 1
+    if not low <= value <= high:
+        raise Failure(f"--{what}: '{text}' is not a number from {low:g} to {high:g}")
+    return value
+
+
+def parser():
+    """The command line."""
+    new = argparse.ArgumentParser(prog="eccentra new", description=__doc__, epilog=EPILOG, allow_abbrev=False)
+    new.add_argument("kind", choices=("section", "well"),
+                     help="section: periodic, filled once; well: cuttings injected at the inlet, from an empty hole")
+    new.add_argument("name", type=pathlib.Path, help="folder of the case; must not exist")
+    hole = new.add_argument_group("hole")
+    hole.add_argument("--hole", default="8.5in", help="diameter (default: %(default)s)")
+    hole.add_argument("--pipe", default="5in", help="outer diameter of the pipe (default: %(default)s)")
+    hole.add_argument("--eccentricity", default="0.5", help="0 to 0.95 (default: %(default)s)")
+    hole.add_argument("--inclination", default="80", help="from the vertical, 0 to 90 degrees (default: %(default)s)")
+    hole.add_argument("--rpm", default="50", help="of the pipe (default: %(default)s)")
+    hole.add_argument("--length", help="of the section or the piece of the well (default: 0.3 m, 1.2 m)")
+    mud = new.add_argument_group("mud")
+    mud.add_argument("--flow", default="0.58 m/s", help="mean velocity or volume rate (default: %(default)s)")
+    mud.add_argument("--tau0", help="yield stress (default: 0)")
+    mud.add_argument("--k", help="consistency, Pa s^n (default: 0.28)")
+    mud.add_argument("--n", help="index, 0.1 to 1.5 (default: 0.65)")
+    mud.add_argument("--pv", help="plastic viscosity (cP), with --yp, instead of tau0, k and n: a Bingham mud")
+    mud.add_argument("--yp", help="yield point (lbf/100ft2)")
+    mud.add_argument("--density", default="1000", help="of the mud (default: %(default)s kg/m3)")
+    grain = new.add_argument_group("cuttings")
+    grain.add_argument("--shape", default="sphere",
+                       help="sphere, or a shape of clusters: \"cube 27\", \"disk 19\", \"file grain.clump\" (default: %(default)s)")
+    grain.add_argument("--diameter", default="6.35mm", help="of the sphere of equal volume (default: %(default)s)")
+    grain.add_argument("--solid-density", default="2619", help="(default: %(default)s kg/m3)")
+    grain.add_argument("--solid", default="0.05", help="section: part of the volume that cuttings take, up to 0.3 (default: %(default)s)")
+    grain.add_argument("--rate", help="well: mass rate, or rate of penetration such as 60ft/h (default: 0.1512 kg/s)")
+    grain.add_argument("--stiffness", default="5e6", help="Young's modulus in the contacts (default: %(default)s Pa)")
+    grain.add_argument("--friction", default="0.5", help="0 to 2 (default: %(default)s)")
+    grain.add_argument("--restitution", default="0.9", help="0.05 to 1 (default: %(default)s)")
+    grain.add_argument("--rolling", default="0", help="rolling friction of spheres (cdt), 0 to 1 (default: %(default)s)")
+    run = new.add_argument_group("run")
+    run.add_argument("--seconds", default="3", help="of the coupled run (default: %(default)s)")
+    run.add_argument("--cells", help="across the gap, around, along: \"8 32 20\" (default: by the grain and the gap)")
+    run.add_argument("--fluid-step", help="[s] (default: by the velocity and the cells)")
+    run.add_argument("--interval", help="DEM steps in a fluid step (default: by the critical step)")
+    run.add_argument("--seed", default="49979687", help="a prime above 10000 (default: %(default)s)")
+    run.add_argument("--plan", action="store_true", help="print the layout, write nothing")
+    return new
+
+
+def mud_of(words):
+    """(tau0, k, n) in SI."""
+    if (words.pv is None) != (words.yp is None):
+        raise Failure("--pv and --yp belong together: give both, or tau0, k and n")
+    if words.pv is not None:
+        if any(value is not None for value in (words.tau0, words.k, words.n)):
+            raise Failure("--pv and --yp stand for tau0, k and n: give the one or the other")
+        return quantity("yp", words.yp, STRESS)[0], positive("pv", words.pv, VISCOSITY)[0], 1.0
+    tau0 = quantity("tau0", words.tau0 or "0", STRESS)[0]
+    if tau0 < 0:
+        raise Failure(f"--tau0: '{words.tau0}' is below 0; expected a yield stress of at least 0")
+    return tau0, positive("k", words.k or "0.28", CONSISTENCY)[0], share("n", words.n or "0.65", 0.1, 1.5)
+
+
+def wishes(words):
+    """What the user wants, in SI, as a Wishes of scene_layout."""
+    hole, pipe = (positive(name, getattr(words, name), LENGTH)[0] for name in ("hole", "pipe"))
+    if pipe >= hole:
+        raise Failure(f"--pipe: '{words.pipe}' does not fit into the hole of '{words.hole}'; expected a smaller diameter")
+    speed, kind = positive("flow", words.flow, SPEED, FLOW)
+    area = 0.25 * scene_layout.PI * (hole**2 - pipe**2)
+    density = positive("solid-density", words.solid_density, DENSITY)[0]
+    rate, rate_kind = positive("rate", words.rate or "0.1512", MASS_RATE, PENETRATION)
+    tau0, k, n = mud_of(words)
+    return scene_layout.Wishes(
+        kind=words.kind, hole=0.5 * hole, pipe=0.5 * pipe, eccentricity=share("eccentricity", words.eccentricity, 0, 0.95),
+        inclination=share("inclination", words.inclination, 0, 90), rpm=share("rpm", words.rpm, -1000, 1000),
+        length=positive("length", words.length or ("0.3" if words.kind == "section" else "1.2"), LENGTH)[0],
+        velocity=speed / area if kind is FLOW else speed, tau0=tau0, k=k, n=n, mud_density=positive("density", words.density, DENSITY)[0],
+        shape=words.shape, diameter=positive("diameter", words.diameter, LENGTH)[0], solid_density=density,
+        solid=share("solid", words.solid, 0, 0.3), rate=rate * density * 0.25 * scene_layout.PI * hole**2 if rate_kind is PENETRATION else rate,
+        stiffness=positive("stiffness", words.stiffness, STIFFNESS)[0], friction=share("friction", words.friction, 0, 2),
+        restitution=share("restitution", words.restitution, 0.05, 1), rolling=share("rolling", words.rolling, 0, 1),
+        seconds=share("seconds", words.seconds, 0.01, 1e5), cells=words.cells, fluid_step=words.fluid_step, interval=words.interval, seed=words.seed)
+
+
+def table(layout):
+    """The layout with its reasons, as lines."""
+    wish, found = layout.wishes, layout
+    lines = [("area of the annulus", f"{found.annulus.area:.4g} m2, {found.annulus.area / 0.3048**2:.4g} ft2", ""),
+             ("gap", f"{both('length', found.annulus.widest, 'm')} wide side, {both('length', found.annulus.narrowest, 'm')} narrow side", ""),
+             ("mean velocity", both("speed", wish.velocity, "m/s"), f"{both('flow', wish.velocity * found.annulus.area, 'm3/s')}"),
+             ("mud", f"tau0 {both('stress', wish.tau0, 'Pa')}, k {wish.k:.4g} Pa s^n, n {wish.n:.4g}",
+              f"density {both('density', wish.mud_density, 'kg/m3')}"),
+             ("pressure gradient", f"{found.gradient:.4g} Pa/m", "slots of the local width, pipe at rest, no cuttings"),
+             ("velocity of the wide side", both("speed", found.wide_speed, "m/s"), f"{found.wide_speed / wish.velocity:.2f} of the mean"),
+             ("Reynolds number", f"{found.reynolds_mean:.4g} mean, {found.reynolds_wide:.4g} wide side",
+              f"laminar below {found.laminar_limit:.4g} (Dodge and Metzner)")]
+    if wish.tau0 > 0:
+        lines.append(("largest grain that the mud holds", f"{1e3 * found.held_diameter:.3g} mm at rest",
+                      "Beris et al. 1985: tau0 = 0.0477 (rho_p - rho_f) g d"))
+    lines += [("cells", f"{found.cells[0]} x {found.cells[1]} x {found.cells[2]} = {found.number_of_cells}", found.why_cells),
+              ("fluid step", f"{found.fluid_step:.4g} s", found.why_fluid_step),
+              ("critical DEM step", f"{found.critical_step:.3g} s", "in a bed of such grains that meet at 1 m/s or twice the velocity of the wide side"),
+              ("DEM steps in a fluid step", f"{found.interval}",
+               f"the DEM step is {found.fluid_step / found.interval / found.critical_step:.2f} of the critical one"),
+              ("cuttings", f"{found.count}", found.why_count)]
+    return [f"  {name:32} {value:52} {why}".rstrip() for name, value, why in lines]
+
+
+def main():
+    """Lays the scene out, prints it and writes the case."""
+    words = parser().parse_args()
+    layout = scene_layout.lay_out(wishes(words))
+    sys.stdout.write("\n".join(table(layout)) + "\n")
+    for warning in layout.warnings:
+        sys.stdout.write(f"warning: {warning}\n")
+    if not words.plan:
+        scene_files.write(layout, words.name)
+        sys.stdout.write(f"the case is in {words.name}; its numbers are in {words.name / 'scene'}. Run it: {words.name / 'run'}\n")
+    return 0

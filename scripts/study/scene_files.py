@@ -1,0 +1,107 @@
+# SPDX-FileCopyrightText: Eccentra contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes the files of a case that was laid out: the scene, and what reads it."""
+import os
+import pathlib
+import shutil
+
+from .programs import BUILD, CASES, SCENES, Failure
+
+HEADER = """// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// All numbers of this case: the DEM script, the mesh and the boundary conditions read them here. SI units.
+"""
+CYCLIC = ("inlet  { type cyclic; }", "outlet { type cyclic; }")
+ENDS = {"section": {"U": CYCLIC, "p": CYCLIC},
+        "well": {"U": ("inlet  { type fixedValue; value uniform (0 0 $:scene.velocity); }",
+                       "outlet { type inletOutlet; inletValue uniform (0 0 0); value uniform (0 0 $:scene.velocity); }"),
+                 "p": ("inlet  { type zeroGradient; }", "outlet { type fixedValue; value uniform 0; }")}}
+TITLES = {"section": "Cuttings in a periodic section of an annulus.", "well": "Cuttings injected into an annulus."}
+
+
+def entries(layout):
+    """(name, value, what it is) of the scene; None for an empty line."""
+    wish = layout.wishes
+    rows = [("holeRadius", wish.hole, "[m]"), ("pipeRadius", wish.pipe, "[m]"), ("eccentricity", wish.eccentricity, "offset of the pipe's axis over the gap"),
+            ("length", wish.length, "[m]"), ("inclination", wish.inclination, "from the vertical [degrees]"), ("rpm", wish.rpm, "of the pipe"),
+            ("ends", "periodic" if wish.kind == "section" else "inletOutlet", "of the mesh"), None,
+            ("velocity", wish.velocity, "mean [m/s]"), ("tau0", wish.tau0, "yield stress [Pa]"), ("k", wish.k, "consistency [Pa s^n]"), ("n", wish.n, "index"),
+            ("mudDensity", wish.mud_density, "[kg/m3]"), ("largestViscosity", largest_viscosity(layout), "of mud at rest [Pa s] (docs/rheology.md)"), None,
+            ("clusters", 0 if wish.shape == "sphere" else 1, "1: clusters of the shape; 0: spheres"),
+            ("shape", f'"{"cube 8" if wish.shape == "sphere" else wish.shape}"', "as in fix particletemplate/cluster"),
+            ("diameter", wish.diameter, "of the sphere of equal volume [m]"), ("solidDensity", wish.solid_density, "[kg/m3]"),
+            ("youngsModulus", wish.stiffness, "[Pa]"), ("friction", wish.friction, ""), ("restitution", wish.restitution, ""),
+            ("rolling", wish.rolling, "rolling friction of spheres (cdt)"), ("effects", '"drag chien pressure_gradient on"', "docs/fix_fluid_force.md"),
+            ("seed", wish.seed, "of where grains appear: a prime above 10000")]
+    if wish.kind == "section":
+        rows += [("count", layout.count, "grains in the section"), ("pouring", 0.5 if wish.solid > 0.12 else 0, "time to pour in what has no room at once [s]"),
+                 ("initialGradient", layout.gradient, "first guess of the pressure gradient [Pa/m]")]
+    else:
+        rows += [("rate", wish.rate, "injected solid [kg/s]"),
+                 ("entryLength", round(max(10 * wish.diameter, 0.05), 4), "where grains appear, from the inlet on [m]")]
+    rows += [None, ("seconds", wish.seconds, "of the coupled run"), ("fluid_step", layout.fluid_step, "[s]"),
+             ("interval", layout.interval, "DEM steps in a fluid step"),
+             ("runInStep", 0.05, "step of the fluid alone, before the grains come [s]"), ("snapshots", 0.1, "time between two pictures [s]"),
+             ("safety", 0.9, "part of the critical DEM step beyond which a run stops"),
+             ("cellsAcross", layout.cells[0], ""), ("cellsAround", layout.cells[1], ""), ("cellsAlong", layout.cells[2], "")]
+    return rows
+
+
+def largest_viscosity(layout):
+    """1000 times that of the mean flow at the wall: below, creeping plugs; above, slow solvers (docs/rheology.md)."""
+    wish = layout.wishes
+    rate = 8 * wish.velocity / layout.annulus.hydraulic_diameter
+    return float(f"{max(1000 * (wish.tau0 / rate + wish.k * rate**(wish.n - 1)), 10):.1g}")
+
+
+def scene_text(layout):
+    """The file scene."""
+    lines = [HEADER]
+    for row in entries(layout):
+        if row is None:
+            lines.append("")
+            continue
+        name, value, what = row
+        shown = f"{value:.10g}" if isinstance(value, float) else str(value)
+        lines.append(f"{name:18}{shown + ';':32} {'// ' + what if what else ''}".rstrip())
+    return "\n".join(lines) + "\n"
+
+
+def script_text(kind):
+    """The DEM script, put together from its parts."""
+    parts = SCENES / "new"
+    text = (parts / "head.in").read_text().replace("@TITLE@", TITLES[kind]).replace("@END@", "p" if kind == "section" else "f")
+    text += (parts / f"{kind}.in").read_text()
+    text = text.replace("@WALLS@\n", (parts / "walls.in").read_text() + "\n").replace("@GRAINS@\n", (parts / "grains.in").read_text())
+    return text + (parts / "tail.in").read_text()
+
+
+def write(layout, folder):
+    """Makes the folder of the case, whole or not at all."""
+    kind = layout.wishes.kind
+    folder = pathlib.Path(folder)
+    if os.path.lexists(folder):
+        raise Failure(f"'{folder}' exists already: give another name")
+    draft = folder.with_name(f"{folder.name}.draft-{os.getpid()}")
+    try:
+        shutil.copytree(SCENES / "new" / "fluid", draft)
+        for field, lines in ENDS[kind].items():
+            path = draft / "0" / field
+            path.write_text(path.read_text().replace("@ENDS@", "\n    ".join(lines)))
+        shipped = CASES / ("tomren-section" if kind == "section" else "tomren-injection")
+        for name in ("fvSchemes", "fvSolution", "decomposeParDict"):
+            shutil.copy(shipped / "system" / name, draft / "system")
+        shutil.copy(shipped / "run", draft)
+        (draft / ".eccentra-bin").write_text(f"{BUILD / 'bin'}\n")
+        if kind == "well":
+            (draft / "constant" / "flowProperties").unlink()
+            coupling = draft / "constant" / "couplingProperties"
+            # A hole without grains has no mean diameter to take the length from.
+            coupling.write_text(coupling.read_text().replace("diffusion;\n", "diffusion;\nlength          #eval{ 3 * $:scene.diameter };\n"))
+        (draft / "scene").write_text(scene_text(layout))
+        (draft / "in.cuttings").write_text(script_text(kind))
+        os.rename(draft, folder)
+    except OSError as problem:
+        raise Failure(f"'{folder}' cannot be made ({problem.strerror}): give another folder") from None
+    finally:
+        shutil.rmtree(draft, ignore_errors=True)

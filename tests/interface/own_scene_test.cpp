@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A scene of one's own: eccentra new writes a case that runs, resumes, changes by one number, and is reported.
+#include "support/read_file.h"
+#include "support/run_program.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <regex>
+
+namespace {
+
+using namespace eccentra::test;
+namespace fs = std::filesystem;
+
+class OwnScene : public testing::Test {
+ protected:
+  void SetUp() override { folder = fresh_folder(testing::UnitTest::GetInstance()->current_test_info()->name()); }
+
+  ProgramResult in_folder(const std::vector<std::string>& command) const {
+    return run_program(command, {folder, {}, 240});
+  }
+  ProgramResult eccentra(std::vector<std::string> words) const {
+    words.insert(words.begin(), required_environment("ECCENTRA_BIN") + "/eccentra");
+    return in_folder(words);
+  }
+
+  /// The number behind a row's name in what `new` prints.
+  static double printed(const std::string& output, const std::string& row) {
+    std::smatch match;
+    return std::regex_search(output, match, std::regex(row + R"( +([-+.\deE]+))")) ? std::stod(match.str(1)) : NAN;
+  }
+
+  fs::path folder;
+};
+
+TEST_F(OwnScene, SectionOfClustersRunsAndTakesEachNumberFromOnePlace) {
+  const ProgramResult made =
+      eccentra({"new",  "section", "mine", "--hole",    "8.5in",  "--pipe",    "5in",    "--eccentricity",
+                "0.62", "--rpm",   "120",  "--flow",    "300gpm", "--tau0",    "3",      "--k",
+                "0.35", "--n",     "0.7",  "--density", "10ppg",  "--shape",   "disk 7", "--diameter",
+                "8e-3", "--solid", "0.01", "--length",  "0.1",    "--seconds", "0.05"});
+  ASSERT_EQ(made.status, 0) << made.output;
+  constexpr double kInch = 0.0254, kGallon = 3.785411784e-3, kPi = 3.14159265358979;
+  const double area = kPi / 4 * (std::pow(8.5 * kInch, 2) - std::pow(5 * kInch, 2));
+  EXPECT_NEAR(printed(made.output, "area of the annulus"), area, 1e-4 * area);
+  EXPECT_NEAR(printed(made.output, "mean velocity"), 300 * kGallon / 60 / area, 1e-3 * 0.79);
+
+  // No dictionary and no script repeats a number of the scene.
+  const std::string scene = contents(folder / "mine/scene");
+  for (const char* number : {"0.10795", "0.0635", "0.62", "0.35", "1198.26"}) {
+    EXPECT_NE(scene.find(number), std::string::npos) << number;
+    for (const char* file : {"in.cuttings", "0/U", "system/annulusMeshDict", "system/controlDict",
+                             "constant/transportProperties", "constant/flowProperties", "constant/couplingProperties"})
+      EXPECT_EQ(contents(folder / "mine" / file).find(number), std::string::npos) << number << " in " << file;
+  }
+
+  const ProgramResult run = in_folder({"mine/run", "--output", "fast", "--rpm", "180", "--ranks", "2"});
+  ASSERT_EQ(run.status, 0) << run.output;
+  EXPECT_NE(contents(folder / "fast/scene").find("rpm               180;"), std::string::npos);
+  EXPECT_NE(contents(folder / "mine/scene").find("rpm               120;"), std::string::npos)
+      << "the case itself stays";
+  EXPECT_EQ(run.output.find("warning"), std::string::npos) << run.output;
+
+  const ProgramResult report = eccentra({"report", "fast", "-o", "report"});
+  EXPECT_EQ(report.status, 0) << report.output;
+  EXPECT_TRUE(fs::is_regular_file(folder / "report/beds.png"));
+
+  const ProgramResult again = eccentra({"new", "section", "mine"});
+  EXPECT_EQ(again.status, 1);
+  EXPECT_NE(again.output.find("'mine' exists already"), std::string::npos) << again.output;
+}
+
+TEST_F(OwnScene, WellOfSpheresGoesOn) {
+  const ProgramResult made = eccentra({"new", "well", "w", "--length", "0.2", "--rate", "60ft/h", "--seconds", "0.05",
+                                       "--cells", "6 24 8", "--pv", "20cP", "--yp", "10lbf/100ft2"});
+  ASSERT_EQ(made.status, 0) << made.output;
+  const ProgramResult run = in_folder({"w/run", "--output", "r"});
+  ASSERT_EQ(run.status, 0) << run.output;
+  // Rate of penetration: the hole's volume as mass.
+  constexpr double kRadius = 8.5 * 0.0254 / 2, kDensity = 2619, kSpeed = 60 * 0.3048 / 3600;
+  EXPECT_NEAR(printed(contents(folder / "w/scene"), "rate"), kDensity * 3.14159265 * kRadius * kRadius * kSpeed, 1e-4);
+  const ProgramResult on = in_folder({"w/run", "--resume", "r", "--seconds", "0.1"});
+  EXPECT_EQ(on.status, 0) << on.output;
+}
+
+TEST_F(OwnScene, EachWrongWordIsOneSentence) {
+  struct Case {
+    std::vector<std::string> words;
+    std::vector<std::string> said;
+  };
+  for (const Case& c :
+       std::vector<Case>{{{"--pipe", "9in"}, {"--pipe", "'9in'", "does not fit"}},
+                         {{"--flow", "3furlong"}, {"--flow", "'3furlong'", "gpm"}},
+                         {{"--flow", "-1"}, {"--flow", "'-1'", "positive"}},
+                         {{"--eccentricity", "1"}, {"--eccentricity", "'1'", "0.95"}},
+                         {{"--pv", "10cP"}, {"--pv and --yp", "both"}},
+                         {{"--pv", "10cP", "--yp", "5", "--k", "1"}, {"--pv and --yp", "the one or the other"}},
+                         {{"--tau0", "-1"}, {"--tau0", "'-1'"}},
+                         {{"--shape", "cube 7"}, {"cube 7", "n^3"}},
+                         {{"--diameter", "90mm"}, {"--diameter", "gap"}},
+                         {{"--cells", "8 32"}, {"--cells", "three whole numbers"}},
+                         {{"--fluid-step", "0"}, {"--fluid-step", "'0'"}},
+                         {{"--interval", "1.5"}, {"--interval", "whole number"}}}) {
+    std::vector<std::string> words = {"new", "section", "x", "--plan"};
+    words.insert(words.end(), c.words.begin(), c.words.end());
+    const ProgramResult run = eccentra(words);
+    EXPECT_EQ(run.status, 1) << run.output;
+    EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
+    for (const std::string& word : c.said)
+      EXPECT_NE(run.output.find(word), std::string::npos) << word << ": " << run.output;
+  }
+  EXPECT_FALSE(fs::exists(folder / "x"));
+  const ProgramResult unknown = eccentra({"foo"});
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_NE(unknown.output.find("'foo' is not a command"), std::string::npos) << unknown.output;
+}
+
+TEST_F(OwnScene, TheDoctorFindsWhatIsMissing) {
+  const ProgramResult whole = eccentra({"doctor"});
+  EXPECT_EQ(whole.status, 0) << whole.output;
+  const ProgramResult broken = run_program({required_environment("ECCENTRA_BIN") + "/eccentra", "doctor"},
+                                           {folder, {"WM_PROJECT_DIR=/nowhere"}, 240});
+  EXPECT_EQ(broken.status, 1) << broken.output;
+  EXPECT_NE(broken.output.find("OpenFOAM   FAILED  WM_PROJECT_DIR '/nowhere'"), std::string::npos) << broken.output;
+}
+
+TEST_F(OwnScene, EveryProgramSaysItsVersion) {
+  for (const char* name : {"annulusFoam", "annulusMesh", "annulusReport", "clusterShape", "eccentra", "eccentra-dem",
+                           "eccentra-keys", "eccentra-run"}) {
+    const std::string program = required_environment("ECCENTRA_BIN") + "/" + name;
+    const ProgramResult version = in_folder({program, "--version"});
+    EXPECT_EQ(version.status, 0) << name << version.output;
+    EXPECT_TRUE(std::regex_search(version.output, std::regex(R"(\d+\.\d+\.\d+)"))) << name << version.output;
+    const ProgramResult help = in_folder({program, "--help"});
+    EXPECT_EQ(help.status, 0) << name << help.output;
+    EXPECT_GT(help.output.size(), 100U) << name << help.output;
+  }
+}
+
+} // namespace
