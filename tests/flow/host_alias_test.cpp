@@ -24,8 +24,8 @@ template <class Type> scalar largest_error(const Field<Type>& value, const Field
   return error;
 }
 
-/// Largest error of operators whose result reuses the storage of an operand, against the same without reuse. At -O3 g++ 12
-/// and 13 break the first three, g++ 14 the fourth.
+/// Largest error of operators whose result reuses the storage of an operand, against the same without reuse. At -O3 g++
+/// 12 and 13 break the first three, g++ 14 the fourth.
 scalar in_place_error() {
   Random random(1);
   tensorField a(kSize), b(kSize);
