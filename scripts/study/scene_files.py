@@ -67,13 +67,16 @@ def scene_text(layout):
     return "\n".join(lines) + "\n"
 
 
+def part(name):
+    """A part of the DEM script; the licence stands in its head alone."""
+    text = (SCENES / "new" / f"{name}.in").read_text()
+    return text if name == "head" else "".join(line for line in text.splitlines(keepends=True) if not line.startswith("# SPDX-"))
+
+
 def script_text(kind):
     """The DEM script, put together from its parts."""
-    parts = SCENES / "new"
-    text = (parts / "head.in").read_text().replace("@TITLE@", TITLES[kind]).replace("@END@", "p" if kind == "section" else "f")
-    text += (parts / f"{kind}.in").read_text()
-    text = text.replace("@WALLS@\n", (parts / "walls.in").read_text() + "\n").replace("@GRAINS@\n", (parts / "grains.in").read_text())
-    return text + (parts / "tail.in").read_text()
+    text = part("head").replace("@TITLE@", TITLES[kind]).replace("@END@", "p" if kind == "section" else "f") + part(kind)
+    return text.replace("@WALLS@\n", part("walls") + "\n").replace("@GRAINS@\n", part("grains")) + part("tail")
 
 
 def write(layout, folder):
