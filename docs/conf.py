@@ -28,6 +28,7 @@ man_pages = [(name, name, summary, "", 1) for name, summary in {
     "annulusReport": "tables, charts and pictures of coupled cases",
     "clusterShape": "make, measure, compare and draw shapes of particles",
     "dragLaw": "drag coefficients of the drag laws of fix fluid/force",
+    "eccentra": "new cases, runs, reports, studies, and a check of the installation",
     "eccentra-dem": "LIGGGHTS with the styles of Eccentra",
     "eccentra-keys": "keys of the two sides of a socket link",
     "eccentra-run": "run a coupled case, or continue its run",

@@ -8,15 +8,18 @@ declare -gA _eccentra_options
 # Options that the help of the program $1 names; asked for once in a shell.
 _eccentra_options_of() {
   local help=--help
+  [ "${1##*/}" != eccentra ] || [[ "${COMP_WORDS[1]:-}" != [a-z]* ]] || help="${COMP_WORDS[1]} --help"
   case ${1##*/} in annulusFoam | annulusMesh) help=-help ;; esac
-  if [ -z "${_eccentra_options[$1]+known}" ]; then
-    _eccentra_options[$1]=$("$1" $help 2>/dev/null </dev/null | grep -oE '(^|[][ (,|])--?[A-Za-z][A-Za-z0-9_-]*' | grep -oE -- '-.*' | sort -u)
+  local key="$1 $help"
+  if [ -z "${_eccentra_options[$key]+known}" ]; then
+    # shellcheck disable=SC2086 # the help of a command of eccentra is two words
+    _eccentra_options[$key]=$("$1" $help 2>/dev/null </dev/null | grep -oE '(^|[][ (,|])--?[A-Za-z][A-Za-z0-9_-]*' | grep -oE -- '-.*' | sort -u)
     case ${1##*/} in
-      eccentra-dem) _eccentra_options[$1]+=' -var -log -screen -echo -partition' ;;
-      eccentra-run) _eccentra_options[$1]+=' --seconds --count --inclination --rpm --length --seed' ;;
+      eccentra-dem) _eccentra_options[$key]+=' -var -log -screen -echo -partition' ;;
+      eccentra-run) _eccentra_options[$key]+=' --seconds --count --inclination --rpm --length --seed' ;;
     esac
   fi
-  printf '%s' "${_eccentra_options[$1]}"
+  printf '%s' "${_eccentra_options[$key]}"
 }
 
 # Words that may follow $2 in a command of the program $1; nothing where a file is expected.
@@ -33,6 +36,8 @@ _eccentra_words() {
     sphere | cube | disk) [ "${1##*/}" != clusterShape ] || "$1" list 2>/dev/null | sed -n "s/^$2 \([0-9]*\) .*/\1/p" ;;
     clusterShape | compare) printf '%s' 'sphere cube disk file stl compare advise list' ;;
     advise) printf '%s' 'cube disk' ;;
+    eccentra) "$1" --help 2>/dev/null | sed -n 's/^  \([a-z][a-z-]*\) .*/\1/p' | grep -v '^eccentra$' ;;
+    new) printf '%s' 'section well' ;;
   esac
 }
 
@@ -47,4 +52,4 @@ _eccentra() {
   [ -z "$words" ] || mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
 }
 
-complete -o default -F _eccentra annulusFoam annulusMesh annulusReport clusterShape dragLaw eccentra-dem eccentra-keys eccentra-run
+complete -o default -F _eccentra annulusFoam annulusMesh annulusReport clusterShape dragLaw eccentra eccentra-dem eccentra-keys eccentra-run

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Man pages, which are the pages of the programs in docs, and the completion of their command lines in bash.
-set(ECCENTRA_PROGRAMS annulusFoam annulusMesh annulusReport clusterShape dragLaw eccentra-dem eccentra-keys eccentra-run)
+set(ECCENTRA_PROGRAMS annulusFoam annulusMesh annulusReport clusterShape dragLaw eccentra eccentra-dem eccentra-keys eccentra-run)
 foreach(_program IN LISTS ECCENTRA_PROGRAMS)
   install(FILES "${PROJECT_SOURCE_DIR}/scripts/completion.bash" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
     RENAME "${_program}")

@@ -30,6 +30,9 @@ expect clusterShape stl "" =
 expect eccentra-dem -res = -resume
 expect eccentra-run case --void-fraction d = divided diffusion
 expect eccentra-run case --resu = --resume
+expect eccentra "do" = doctor
+expect eccentra new w = well
+expect eccentra new --incl = --inclination
 expect annulusReport --no = --no-pictures
 expect annulusReport --nothing-of-this-name =
 for program in annulusFoam:-case annulusMesh:-dict dragLaw:--reynolds; do
