@@ -10,13 +10,11 @@
 namespace eccentra::exchange {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// Coefficients of the interpolation in `nodes` nodes (Gauss-Chebyshev quadrature).
 std::vector<double> interpolation(double largest, int power, int nodes) {
   std::vector<double> c(nodes, 0.0);
   for (int j = 0; j < nodes; ++j) {
-    const double angle = kPi * (j + 0.5) / nodes;
+    const double angle = M_PI * (j + 0.5) / nodes;
     const double x = std::cos(angle);
     const double f = std::pow(0.5 * (largest + 1) + 0.5 * (largest - 1) * x, -power);
     // T_k(x) = cos(k angle) by its recurrence

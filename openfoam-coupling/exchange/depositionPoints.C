@@ -9,8 +9,6 @@
 namespace eccentra::exchange {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// +-e_k with a sixth each: second moment about axis k is e_k^2 / 3.
 void sixPoints(const double* extent, std::vector<DepositionPoint>& points) {
   for (int k = 0; k < 3; ++k)
@@ -53,7 +51,7 @@ void depositionPoints(VoidFraction method, double volume, const double* extent, 
     sixPoints(extent, points);
   } else if (method == VoidFraction::divided) {
     // A ball's second moment is R^2 / 5 per volume.
-    const double e = std::sqrt(3.0 / 5.0) * std::cbrt(3.0 * volume / (4.0 * kPi));
+    const double e = std::sqrt(3.0 / 5.0) * std::cbrt(3.0 * volume / (4.0 * M_PI));
     const double ball[9] = {e, 0, 0, 0, e, 0, 0, 0, e};
     sixPoints(ball, points);
   } else {

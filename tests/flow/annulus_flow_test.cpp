@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Developed flow through concentric and eccentric annuli against closed forms and semi-analytic values.
-#include "flow_case.h"
+#include "flow/flow_case.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // annulusFoam as a user calls it: Courant-bounded steps, progress, two ranks, errors.
-#include "flow_case.h"
+#include "flow/flow_case.h"
 
 #include <gtest/gtest.h>
 

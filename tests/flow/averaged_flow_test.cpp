@@ -3,7 +3,7 @@
 // The averaged equations with a moving fluid fraction: manufactured motion, mass, momentum, restart, the limit alpha
 // = 1.
 #include "flow/deferredConvection.H"
-#include "flow_case.h"
+#include "flow/flow_case.h"
 
 #include "fvCFD.H"
 

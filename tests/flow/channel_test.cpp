@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plane channel: Herschel-Bulkley profile and plug, and the order of the time scheme.
-#include "flow_case.h"
+#include "flow/flow_case.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Makes OpenFOAM cases for tests.
-#include "flow_case.h"
+#include "flow/flow_case.h"
 
 #include <gtest/gtest.h>
 

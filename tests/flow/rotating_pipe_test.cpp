@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Flow around a turning pipe: profile, torque, and the axial flow that it thins.
-#include "flow_case.h"
+#include "flow/flow_case.h"
 
 #include <gtest/gtest.h>
 

@@ -93,7 +93,7 @@ TEST(FlowQuantities, AreThoseOfThePage) {
         << "docs/link.md has '" << rows << "' where '" << begin.str() << "...' belongs";
   }
   std::getline(lines, rows);
-  EXPECT_EQ(rows.rfind("|", 0), std::string::npos) << "docs/link.md has a row too many: " << rows;
+  EXPECT_EQ(rows.rfind('|', 0), std::string::npos) << "docs/link.md has a row too many: " << rows;
 }
 
 } // namespace

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Solids from STL files: exact mass properties, inscribed spheres that stay inside and get better with their number.
+#include "shape/stl_solids.h"
 #include "shape/union_geometry.h"
 #include "shape/vtk/stl_shape.h"
-#include "stl_solids.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // fix balance/bodies: where planes go, that ranks become equally loaded, and that not a digit of the results changes.
 #include "contact/balanced_planes.h"
 
-#include "bodies_scene.h"
+#include "styles/bodies/bodies_scene.h"
 
 #include "comm.h"
 

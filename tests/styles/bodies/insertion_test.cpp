@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stock insertion of clusters: dense fills without a single overlap, rates and streams with exact counts.
-#include "bodies_scene.h"
+#include "styles/bodies/bodies_scene.h"
 
 #include "pair.h"
 

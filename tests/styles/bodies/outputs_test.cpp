@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What users read from a bed of clusters: contacts with their forces, coordination numbers, volume fraction on a grid.
-#include "bodies_scene.h"
+#include "styles/bodies/bodies_scene.h"
 
 #include "compute.h"
 #include "fix.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The same digits on any number of ranks and through a restart; periodic boundaries; bodies that leave.
-#include "bodies_scene.h"
+#include "styles/bodies/bodies_scene.h"
 
 #include "force.h"
 #include "pair.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // fix sleep/cluster: a bed asleep is the bed awake within the tolerance, and whatever disturbs it wakes it.
-#include "bodies_scene.h"
+#include "styles/bodies/bodies_scene.h"
 
 #include <gtest/gtest.h>
 

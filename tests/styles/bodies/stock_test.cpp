@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // pair_style gran/cluster against stock: single spheres to round-off, two-body impacts of clusters (contacts parallel).
-#include "bodies_scene.h"
+#include "styles/bodies/bodies_scene.h"
 
 #include "fix_multisphere.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Random impacts of two clusters, hundreds of pairs side by side in one scene: none gains energy, momentum is kept.
-#include "bodies_scene.h"
+#include "styles/bodies/bodies_scene.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The bipolar grid, and annulusMesh as a user calls it.
-#include "flow_case.h"
+#include "flow/flow_case.h"
 #include "mesh/annulus_grid.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 // Central impacts of cluster on cluster, face, edge and vertex on: contacts shared return what was asked for at every
 // level of detail; contacts parallel return about e^sqrt(N), as stock does; elastic impacts keep energy; the closed
 // form off centre.
-#include "bodies_scene.h"
+#include "styles/bodies/bodies_scene.h"
 
 #include "force.h"
 #include "pair.h"

@@ -3,7 +3,7 @@
 // The eight benchmark impacts of spheres of Chung & Ooi (2011), with gran/cluster and wall/gran/cluster, against
 // rigid-body and Hertz closed forms (physics.md, D1). One-sphere clusters, so that the clusters' own path is what is
 // tested.
-#include "bodies_scene.h"
+#include "styles/bodies/bodies_scene.h"
 
 #include <gtest/gtest.h>
 

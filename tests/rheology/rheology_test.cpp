@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Viscosity of both Herschel-Bulkley laws: as functions, as models on a mesh, and selected by stock pimpleFoam.
-#include "flow_case.h"
+#include "flow/flow_case.h"
 #include "rheology/herschel_bulkley.h"
 
 #include <gtest/gtest.h>

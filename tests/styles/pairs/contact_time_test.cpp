@@ -3,7 +3,7 @@
 // Duration and peak force of flat drops: contacts shared, contacts parallel and stock fix multisphere against the
 // closed form of N Hertz contacts side by side. Sharing scales damping alone, so elastic impacts are the same in all
 // three.
-#include "bodies_scene.h"
+#include "styles/bodies/bodies_scene.h"
 
 #include "fix_multisphere.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Oblique and off-centre impacts on a body so heavy that it does not move, against closed forms (physics.md, D1 T4,
 // D3).
-#include "bodies_scene.h"
+#include "styles/bodies/bodies_scene.h"
 
 #include "force.h"
 #include "pair.h"

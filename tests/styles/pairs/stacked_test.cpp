@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Spheres stacked on one another: the overlaps of a column at rest, and the motion of two spheres squeezed between
 // walls.
-#include "bodies_scene.h"
+#include "styles/bodies/bodies_scene.h"
 
 #include <gtest/gtest.h>
 

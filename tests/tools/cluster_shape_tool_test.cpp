@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // clusterShape as a user runs it: arguments, files, JSON, pictures, exit codes.
-#include "stl_solids.h"
+#include "shape/stl_solids.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
