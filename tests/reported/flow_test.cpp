@@ -254,7 +254,7 @@ TEST(Reported, adversary_17_half_written_time) {
       {scene.folder, {}, 60});
   for (const char* time : {"0.08", "0.12"}) {
     const std::string warning = line_with(full.output, std::string("warning: the fields of t = ") + time + " s");
-    EXPECT_NE(warning.find("could not be written"), std::string::npos) << full.output;
+    EXPECT_NE(warning.find("were not written"), std::string::npos) << full.output;
     EXPECT_NE(warning.find("removed"), std::string::npos) << full.output;
     EXPECT_FALSE(fs::exists(scene.folder / time)) << time;
   }
