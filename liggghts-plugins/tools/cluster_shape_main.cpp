@@ -290,7 +290,7 @@ int main(int argc, char** argv) {
     eccentra::finish_standard_output();
   } catch (const std::exception& e) {
     std::fflush(stdout);
-    fmt::print(stderr, "clusterShape: {}\n", e.what());
+    fmt::print(stderr, "clusterShape: error: {}\n", e.what());
     return 1;
   }
   return exit_code;

@@ -18,12 +18,26 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
 
 namespace {
+
+/// Ends the program, of which one rank has failed.
+[[noreturn]] void fail(const std::string& sentence) {
+  std::fflush(nullptr);
+  std::fprintf(stderr, "eccentra-dem: error: %s\n", sentence.c_str());
+  std::fflush(stderr);
+  int size = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  if (size > 1)
+    MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
+  MPI_Finalize();
+  std::_Exit(EXIT_FAILURE);
+}
 
 void print_styles() {
   std::printf("eccentra-dem %s for LIGGGHTS-PUBLIC %s\n", ECCENTRA_VERSION, ECCENTRA_LIGGGHTS_VERSION);
@@ -68,14 +82,9 @@ eccentra::link::CheckpointChoice choose_checkpoint() {
     choice = newest_checkpoint(fluid_record_is_whole);
     for (const std::string& sentence : choice.passed_over)
       std::printf("%s\n", sentence.c_str());
-    if (choice.none_is_whole()) {
-      std::fprintf(stderr,
-                   "eccentra-dem: error: none of the checkpoints in '%s' is complete: remove or rename that "
-                   "folder to begin anew\n",
-                   kCheckpoints);
-      std::fflush(nullptr);
-      MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
-    }
+    if (choice.none_is_whole())
+      fail("none of the checkpoints in '" + std::string(kCheckpoints) +
+           "' is complete: remove or rename that folder to begin anew");
     if (choice.mark.step < 0)
       std::printf("no complete checkpoint: the run begins at its beginning\n");
     else
@@ -153,9 +162,8 @@ int main(int argc, char** argv) {
     arguments.push_back(word.data());
   try {
     run_script(arguments);
-  } catch (const eccentra::link::Refusal& refusal) {
-    std::fprintf(stderr, "eccentra-dem: error: %s\n", refusal.what());
-    MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
+  } catch (const std::exception& problem) {
+    fail(problem.what());
   }
   std::fflush(stdout);
   bool lost = std::ferror(stdout) != 0;

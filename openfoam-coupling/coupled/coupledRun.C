@@ -29,7 +29,7 @@ using namespace Foam;
 
 namespace {
 
-/// Meetings from one report to the next.
+/// Coupling steps from one report to the next.
 constexpr label kReportEvery = 10;
 
 IOobject propertiesFile(const Time& time) {
@@ -117,13 +117,13 @@ label coupledRun::reportEvery() const {
 void coupledRun::run() {
   refuseUnknownKeywords(properties_, {"link", "demScript", "demLog", "voidFraction", "length", "diffusionSteps",
                                       "momentum", "mostSolid", "fractionFloor", "tolerance", "report", "runIn",
-                                      "address", "keys", "timeout", "wait"});
+                                      "address", "keys", "timeout", "wait", "wallsApart", "particlesOutside"});
   noteUnread(properties_);
   const word link(properties_.getOrDefault<word>("link", "solver"));
   if (link != "solver" && link != "socket")
     throw inputError(properties_, "link", link, "use solver or socket");
   if (reportEvery() < 1)
-    throw inputError(properties_, "report", reportEvery(), "give a whole number of meetings, at least 1");
+    throw inputError(properties_, "report", reportEvery(), "give a whole number of coupling steps, at least 1");
   const runningMpi mpi;
   link::catch_stop_signals("annulusFoam");
   if (link == "solver")
@@ -153,6 +153,7 @@ void coupledRun::hostScript() {
 }
 
 void coupledRun::serveSocket() {
+  overSocket_ = true;
   const fileName address(properties_.get<fileName>("address"));
   link::Timeout patience;
   patience.silence = properties_.getOrDefault<scalar>("timeout", patience.silence);

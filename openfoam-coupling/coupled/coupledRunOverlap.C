@@ -8,8 +8,6 @@
 #include "support/processGuards.H"
 #include "support/stopwatch.H"
 
-#include "link/stop_signal.h"
-
 #include "Time.H"
 
 #include <algorithm>
@@ -53,14 +51,14 @@ void coupledRun::returnDifference(const scalarField& assumedSolid, const exchang
   flow_->particleForce().correctBoundaryConditions();
 }
 
-int coupledRun::exchangeAhead(const link::CouplingStep& couplingStep, const link::ParticleArrays& particles,
-                              const link::FluidSamples& samples) {
+void coupledRun::exchangeAhead(const link::CouplingStep& couplingStep, const link::ParticleArrays& particles,
+                               const link::FluidSamples& samples) {
   if (overlap_.ahead != (couplingStep.elapsed > 0))
     throw link::Refusal("the DEM side spoke out of turn: install the same release of Eccentra on both sides");
   overlap_.ahead = false;
   const bool first = !exchange_;
   if (first)
-    begin(couplingStep);
+    begin(couplingStep, particles);
   const bool news = requests_.changes(couplingStep);
   follow(couplingStep);
   stopwatch watch;
@@ -98,7 +96,6 @@ int coupledRun::exchangeAhead(const link::CouplingStep& couplingStep, const link
   const vector onItsWay(interval_ * flow_->rho() *
                         gSum(vectorField(mesh_.V() * flow_->particleForce().primitiveField())));
   report_->add(*flow_, *exchange_, couplingStep, seconds, onItsWay);
-  return returnReduce(label(link::stop_signal()), maxOp<label>());
 }
 
 } // namespace eccentra

@@ -11,8 +11,6 @@
 #include "support/processGuards.H"
 #include "support/stopwatch.H"
 
-#include "link/stop_signal.h"
-
 #include "Time.H"
 
 #include <cmath>
@@ -56,6 +54,7 @@ void coupledRun::makeExchange(exchange::ExchangeSettings settings) {
   settings.tolerance = properties_.getOrDefault<scalar>("tolerance", settings.tolerance);
   try {
     exchange_ = std::make_unique<exchange::particleExchange>(mesh_, settings);
+    exchange_->allowDepths(depths_);
   } catch (const std::invalid_argument& problem) {
     throw inputError(properties_.name() + ": " + problem.what());
   }
@@ -106,8 +105,10 @@ void coupledRun::checkFinite(const link::CouplingStep& couplingStep) const {
                       "checkpoint with -resume");
 }
 
-void coupledRun::begin(const link::CouplingStep& couplingStep) {
+void coupledRun::begin(const link::CouplingStep& couplingStep, const link::ParticleArrays& particles) {
   makeExchange(couplingStep);
+  exchange_->locate(particles);
+  checkInside(couplingStep);
   runIn();
   startFunctionObjects(time_);
   report_ = std::make_unique<couplingReport>(mesh_, dem_, reportEvery());
@@ -160,9 +161,11 @@ void coupledRun::setFraction(const scalarField& before, const scalarField& after
 // written.
 bool coupledRun::takeSteps(scalar left, const scalarField& before, const scalarField& after, appliedForces& applied) {
   for (bool due = false;;) {
-    {
+    try {
       const quiet silence(verbose_);
       flow_->advance();
+    } catch (const solidVolumeError& problem) {
+      throw link::Refusal(std::string(link::kVolumeChanged) + problem.what());
     }
     executeFunctionObjects();
     due = due || time_.writeTime();
@@ -179,15 +182,26 @@ void coupledRun::executeFunctionObjects() {
   time_.functionObjects().execute();
 }
 
-int coupledRun::meet(const link::CouplingStep& couplingStep, const link::ParticleArrays& particles,
-                     const link::FluidSamples& samples) {
+link::StepAnswer coupledRun::couple(const link::CouplingStep& couplingStep, const link::ParticleArrays& particles,
+                                    const link::FluidSamples& samples) {
   checkFinite(couplingStep);
   const trapping on(traps_);
   if (dem_.overlap)
-    return exchangeAhead(couplingStep, particles, samples);
+    exchangeAhead(couplingStep, particles, samples);
+  else
+    exchangeInTurn(couplingStep, particles, samples);
+  if (outsideAtStart_ < 0)
+    checkInside(couplingStep);
+  else
+    followOutside();
+  return answer();
+}
+
+void coupledRun::exchangeInTurn(const link::CouplingStep& couplingStep, const link::ParticleArrays& particles,
+                                const link::FluidSamples& samples) {
   const bool first = !exchange_;
   if (first)
-    begin(couplingStep);
+    begin(couplingStep, particles);
   follow(couplingStep);
   stopwatch watch;
   PartSeconds seconds(couplingStep);
@@ -223,7 +237,6 @@ int coupledRun::meet(const link::CouplingStep& couplingStep, const link::Particl
   report_->add(*flow_, *exchange_, couplingStep, seconds, Zero);
   if (due)
     writer_.writeNow();
-  return returnReduce(label(link::stop_signal()), maxOp<label>());
 }
 
 void coupledRun::run_ended() {

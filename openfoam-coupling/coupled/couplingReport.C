@@ -28,7 +28,7 @@ const std::string kHeading =
     "bed_height,bed_area,fastest_particle,least_fraction,courant,continuity_error,volume_error,impulse_error,"
     "pressure_error,dem_seconds,fluid_seconds,exchange_seconds,link_seconds,"
     "inserted,left,inserted_mass,mass,global_continuity_error,"
-    "momentum_x,momentum_y,momentum_z,fastest_fluid";
+    "momentum_x,momentum_y,momentum_z,fastest_fluid,outside";
 /// Gravity across the axis below this part of the whole counts as none: the hole is vertical.
 constexpr double kVertical = 1e-6;
 
@@ -74,7 +74,7 @@ couplingReport::couplingReport(const fvMesh& mesh, const link::DemTerms& dem, in
   const boundBox box(mesh.points(), true);
   length_ = box.span() & axis_;
   if (earlier) {
-    couplingSteps_ = earlier->get<label>("meetings");
+    couplingSteps_ = earlier->get<label>("couplingSteps");
     initially_ = std::llround(earlier->get<scalar>("initially"));
     before_ = {earlier->get<scalar>("dem"), earlier->get<scalar>("fluid"), earlier->get<scalar>("exchange"),
                earlier->get<scalar>("link")};
@@ -115,7 +115,7 @@ std::array<double, 4> couplingReport::parts() const {
 
 dictionary couplingReport::state() const {
   dictionary state;
-  state.add("meetings", label(couplingSteps_));
+  state.add("couplingSteps", label(couplingSteps_));
   state.add("initially", scalar(initially_));
   const std::array<double, 4> parts = this->parts();
   state.add("dem", parts[0]);
@@ -196,7 +196,8 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
   const double globalContinuity = flow.globalContinuityError();
   if (initially_ < 0)
     initially_ = totals.particles - totals.inserted;
-  const std::int64_t left = initially_ + totals.inserted - totals.particles;
+  left_ = initially_ + totals.inserted - totals.particles;
+  outside_ = std::int64_t(balance.outside);
   const flowMeasures measures(flow);
   const double gradient = measures.gradient;
   const double concentration = totals.volume / gSum(mesh_.V());
@@ -224,9 +225,9 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
       << impulseError << ',' << pressureError;
   for (const double part : parts)
     row << ',' << part;
-  row << ',' << totals.inserted << ',' << left << ',' << totals.inserted_mass << ',' << totals.mass << ','
+  row << ',' << totals.inserted << ',' << left_ << ',' << totals.inserted_mass << ',' << totals.mass << ','
       << globalContinuity << ',' << momentum.x() << ',' << momentum.y() << ',' << momentum.z() << ',' << fastestFluid
-      << measures.values();
+      << ',' << outside_ << measures.values();
   addRow(row.str());
 
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
@@ -276,6 +277,9 @@ void couplingReport::finish(averagedFlow& flow) const {
   printLink(link, dem, fluid);
   if (Pstream::master())
     std::printf("%s", flow.convergence().summary().c_str());
+  if (Pstream::master() && (left_ > 0 || outside_ > 0))
+    std::printf("particles that have left the simulation box: %lld; that lie outside the mesh: %lld\n",
+                static_cast<long long>(left_), static_cast<long long>(outside_));
   const label pending = returnReduce(table_ ? label(table_->pending().size()) : 0, maxOp<label>());
   if (pending > 0)
     throw link::Refusal("the last " + std::to_string(pending) + " rows of coupling.csv found no room on the disk" +
@@ -291,8 +295,8 @@ void couplingReport::printLink(double link, double dem, double fluid) const {
     return;
   const double couplingStep = link / couplingStepsHere_, demStep = dem / (double(steps_) * stepsPerCouplingStep_),
                fluidStep = fluid / steps_;
-  std::printf("link: %.3f ms a meeting, %.3g DEM steps or %.3g fluid intervals; %.3g kB a meeting between ranks of the "
-              "fluid, at most %.3g from one rank\n",
+  std::printf("link: %.3f ms a coupling step, %.3g DEM steps or %.3g fluid intervals; %.3g kB a coupling step between "
+              "ranks of the fluid, at most %.3g from one rank\n",
               1e3 * couplingStep, demStep > 0 ? couplingStep / demStep : 0.0,
               fluidStep > 0 ? couplingStep / fluidStep : 0.0, 1e-3 * sent / couplingStepsHere_,
               1e-3 * most / couplingStepsHere_);

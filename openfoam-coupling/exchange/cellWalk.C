@@ -142,6 +142,26 @@ WalkEnd cellWalk::walk(Walker& walker) const {
   return end;
 }
 
+label cellWalk::deepestPatch(const Walker& walker, double& depth) const {
+  label deepest = 0;
+  depth = -Foam::GREAT;
+  for (label k = blocks_[walker.cell].walls; k >= 0; k = blocks_[k].more)
+    for (int i = 0; i < kLanes; ++i) {
+      double distance = -blocks_[k].offset[i];
+      for (int c = 0; c < 3; ++c)
+        distance += blocks_[k].normal[c][i] * walker.position[c];
+      if (distance > depth) {
+        depth = distance;
+        deepest = patchOfBoundaryFace_[-1 - blocks_[k].behind[i] - mesh_.nInternalFaces()];
+      }
+    }
+  return deepest;
+}
+
+bool cellWalk::holds(const Walker& walker) const {
+  return search_.findCell(point(walker.position[0], walker.position[1], walker.position[2]), -1, true) >= 0;
+}
+
 bool cellWalk::crossPatch(label meshFace, Walker& walker, WalkEnd& end) const {
   const Foam::vectorField& centres = mesh_.faceCentres();
   const Foam::polyPatch& patch = mesh_.boundaryMesh()[patchOfBoundaryFace_[meshFace - mesh_.nInternalFaces()]];

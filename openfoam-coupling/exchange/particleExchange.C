@@ -103,6 +103,13 @@ void particleExchange::soften(FieldBundle<kWide>& amounts) const {
   }
 }
 
+void particleExchange::locate(const link::ParticleArrays& particles) {
+  particlePoints_.invite(particles, VoidFraction::centre, 0);
+  std::array<double, 1> sums{double(particlePoints_.numberOutside())};
+  sumOverRanks(sums);
+  balance_.outside = std::llround(sums[0]);
+}
+
 void particleExchange::deposit(const link::ParticleArrays& particles, double elapsed, scalarField& solid,
                                vectorField* force, scalarField* drag) {
   particlePoints_.invite(particles, settings_.method, settings_.length);
@@ -148,16 +155,18 @@ void particleExchange::deposit(const link::ParticleArrays& particles, double ela
     particleImpulse += own;
     scale += mag(own);
   }
-  std::array<double, 9> sums{scale,
-                             volume,
-                             sum(solidVolume_),
-                             particleImpulse.x(),
-                             particleImpulse.y(),
-                             particleImpulse.z(),
-                             meshImpulse.x(),
-                             meshImpulse.y(),
-                             meshImpulse.z()};
+  std::array<double, 10> sums{scale,
+                              volume,
+                              sum(solidVolume_),
+                              particleImpulse.x(),
+                              particleImpulse.y(),
+                              particleImpulse.z(),
+                              meshImpulse.x(),
+                              meshImpulse.y(),
+                              meshImpulse.z(),
+                              double(particlePoints_.numberOutside())};
   sumOverRanks(sums);
+  balance_.outside = std::llround(sums[9]);
   balance_.impulseScale = sums[0];
   balance_.particleVolume = sums[1];
   balance_.meshVolume = sums[2];

@@ -4,6 +4,7 @@
 #include "exchange/particlePoints.H"
 
 #include "boundBox.H"
+#include "mathematicalConstants.H"
 
 #include <algorithm>
 #include <cmath>
@@ -98,6 +99,7 @@ void particlePoints::searchAll(const link::ParticleArrays& particles) {
 
 void particlePoints::invite(const link::ParticleArrays& particles, VoidFraction method, double width) {
   searchAll(particles);
+  astray_ = 0;
   here_.clear();
   here_.reserve(particles.count);
   std::vector<DepositionPoint> points;
@@ -109,6 +111,7 @@ void particlePoints::invite(const link::ParticleArrays& particles, VoidFraction 
       points.push_back({{0, 0, 0}, 0.0});
     const double* x = particles.position[row];
     const double* impulse = particles.impulse[row];
+    const double radius = std::cbrt(particles.volume[row] * (0.75 / Foam::constant::mathematical::pi));
     const link::CellHint cell_hint = particles.cell_hint[row];
     for (const DepositionPoint& point : points) {
       // Made where it stays in most cases.
@@ -124,6 +127,7 @@ void particlePoints::invite(const link::ParticleArrays& particles, VoidFraction 
       particlePoint.weight = weight;
       particlePoint.row = static_cast<int>(row);
       particlePoint.homeRank = rank_;
+      particlePoint.radius = static_cast<float>(radius);
       particlePoint.centre = centreOnly || weight == 0.0;
       if (cell_hint.rank != rank_) {
         outgoing_[cell_hint.rank].push_back({particlePoint, kNotEntering, 0});
@@ -140,10 +144,35 @@ void particlePoints::receive(const WalkEnd& end) {
   ParticlePoint& particlePoint = here_.back();
   if (end.found) {
     particlePoint.outside = end.outside > kTrustedDepth * walk_.cellSize(particlePoint.at.cell);
+    particlePoint.astray =
+        particlePoint.centre && end.outside > kBehindWall * particlePoint.radius && isAstray(particlePoint);
+    astray_ += particlePoint.astray;
   } else {
     outgoing_[end.nextRank].push_back({particlePoint, end.nextPatch, end.nextFace});
     here_.pop_back();
   }
+}
+
+bool particlePoints::isAstray(const ParticlePoint& particlePoint) const {
+  if (depths_.empty())
+    return false;
+  double depth = 0;
+  const AllowedDepth& allowed = depths_[walk_.deepestPatch(particlePoint.at, depth)];
+  // Where the domain bends back a walk may end beside a wall and yet short of its point.
+  return depth > allowed.fixed + allowed.perRadius * particlePoint.radius && !walk_.holds(particlePoint.at);
+}
+
+std::vector<Outlier> particlePoints::outside() const {
+  std::vector<Outlier> all;
+  for (const ParticlePoint& particlePoint : here_) {
+    if (!particlePoint.astray)
+      continue;
+    Outlier one;
+    std::copy_n(particlePoint.at.position, 3, one.position.begin());
+    one.patch = walk_.deepestPatch(particlePoint.at, one.depth);
+    all.push_back(one);
+  }
+  return all;
 }
 
 void particlePoints::settle() {

@@ -261,7 +261,7 @@ void averagedFlow::checkSolidVolume() const {
         << "the fluid fraction of a closed or periodic section changed by " << change
         << " of its volume in one step, at t = " << mesh_.time().timeName()
         << " s: an incompressible fluid cannot make room; keep the volume of the particles constant or open a boundary";
-    throw inputError(text.str());
+    throw solidVolumeError(text.str());
   }
 }
 

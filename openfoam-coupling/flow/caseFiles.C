@@ -11,6 +11,7 @@
 #include "volFields.H"
 
 #include <algorithm>
+#include <iostream>
 #include <set>
 
 namespace Foam {

@@ -50,9 +50,8 @@ scalar timeStepControl::partOf(scalar left, scalar courant) {
     parts = max(scalar(1), std::ceil(left / min(wanted, min(largestLeap * present, maxDeltaT_)) * (1 - roundOff)));
   }
   if (parts > maxParts) {
-    throw inputError(
-        runTime_.controlDict(), "maxCo", maxCo_,
-        "this takes more than 10000 steps to the next meeting with the particles: raise maxCo or maxDeltaT");
+    throw inputError(runTime_.controlDict(), "maxCo", maxCo_,
+                     "this takes more than 10000 steps to the next coupling step: raise maxCo or maxDeltaT");
   }
   runTime_.setDeltaT(left / parts, false);
   return parts > 1 ? left - left / parts : 0;

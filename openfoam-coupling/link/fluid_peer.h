@@ -5,6 +5,7 @@
 
 #include "link/flow_quantities.h"
 #include "link/terms.h"
+#include "link/walls.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +15,7 @@
 namespace eccentra::link {
 
 /// What the fluid side stores with a particle from one coupling step to the next (where it was found); it travels with
-/// the particle between the ranks of DEM and means nothing to DEM. Negative: not met yet.
+/// the particle between the ranks of DEM and means nothing to DEM. Negative: not found yet.
 struct CellHint {
   std::int32_t rank = -1;
   std::int32_t cell = -1;
@@ -71,18 +72,33 @@ struct CouplingStep {
   DemLoad load;
 };
 
+/// What the fluid side writes before the place of a particle: "particle at (x y z)"; the DEM side puts the id into it.
+constexpr const char* kParticleAt = "particle at (";
+/// In a refusal of the fluid side whose cause are particles that come or go; the DEM side says which in front of it.
+constexpr const char* kVolumeChanged = "the particles do not keep their volume: ";
+
+/// What the fluid side says at a coupling step besides the samples; the same on every rank.
+struct StepAnswer {
+  int stop_signal = 0; ///< that asks the fluid side to stop, or 0
+  std::string news;    ///< sentences for the user, one a line; empty in most cases
+};
+
 /// The fluid. All calls are collective over the ranks of DEM, and may throw Refusal (on every rank alike).
 class FluidPeer {
  public:
   virtual ~FluidPeer() = default;
   /// States the DEM side's terms and returns the fluid side's; throws Refusal if they disagree.
   virtual FluidTerms agree(const DemTerms& dem) = 0;
+  /// States the walls of the DEM script (on rank 0; nothing is read on the others). Returns sentences for the user, one
+  /// a line, about walls that one of the two sides has alone; throws Refusal where a wall is another one than that of
+  /// the mesh.
+  virtual std::string compare_walls(const WallDescription& walls) = 0;
   /// Hands over the particles, advances the flow by `coupling step.elapsed`, and fills the arrays of `samples` (rows as
-  /// in `particles`); those that `coupling step.needed` does not name are null. Returns the signal that asks the fluid
-  /// side to stop, or 0.
-  virtual int meet(const CouplingStep& coupling_step, const ParticleArrays& particles, const FluidSamples& samples) = 0;
+  /// in `particles`); those that `coupling step.needed` does not name are null.
+  virtual StepAnswer couple(const CouplingStep& coupling_step, const ParticleArrays& particles,
+                            const FluidSamples& samples) = 0;
   /// With DemTerms::overlap, after a coupling step: DEM begins an interval, and so does the flow, with the particles
-  /// and impulses of that coupling step; meet() then only exchanges. Returns at once where the fluid is another job.
+  /// and impulses of that coupling step; couple() then only exchanges. Returns at once where the fluid is another job.
   virtual void advance() = 0;
   /// Writes the fluid's state of the last coupling step such that it is on the disk on return, and returns where (for
   /// the user's eyes). The DEM side writes its own after that: a checkpoint of DEM's has one of the fluid's.

@@ -35,7 +35,7 @@ void catch_stop_signals(const char* program, unsigned patience) {
   g_timeout = patience;
   std::strncpy(g_late, program, sizeof g_late / 4);
   std::strncat(g_late,
-               ": error: a signal asked this run to stop but no meeting of particles and fluid came in time to write a "
+               ": error: a signal asked this run to stop but no coupling step came in time to write a "
                "checkpoint: start again with -resume from the last complete one, or signal earlier\n",
                sizeof g_late / 2);
   struct sigaction action = {};

@@ -32,10 +32,11 @@ const Column columns[] = {{"particles", "bodies", "", 1},
                           {"bed_height", "bed height (cells above 30 %)", "mm", 1000},
                           {"fastest_particle", "fastest body", "m/s", 1},
                           {"least_fraction", "least fluid fraction", "", 1}};
-const Column errors[] = {{"volume_error", "largest solid volume error", "", 1},
-                         {"impulse_error", "largest impulse error", "", 1},
-                         {"pressure_error", "largest pressure force error", "", 1},
-                         {"continuity_error", "largest continuity error", "", 1}};
+/// The largest value of the run counts.
+const Column largest[] = {
+    {"volume_error", "largest solid volume error", "", 1},     {"impulse_error", "largest impulse error", "", 1},
+    {"pressure_error", "largest pressure force error", "", 1}, {"continuity_error", "largest continuity error", "", 1},
+    {"left", "bodies that have left the box", "", 1},          {"outside", "most bodies outside the mesh", "", 1}};
 const char* const parts[] = {"dem", "fluid", "exchange", "link"};
 
 std::string number(double value) {
@@ -135,7 +136,7 @@ Summary summarise(const Case& data, double share, std::size_t layers) {
   }
   // The row of the start tells what was there before the fluid's first step with particles: no balance to judge.
   const std::ptrdiff_t first_step = time.size() > 1 && time.front() == 0 ? 1 : 0;
-  for (const Column& c : errors)
+  for (const Column& c : largest)
     if (data.run.has(c.column)) {
       const auto& all = data.run.columns.at(c.column);
       summary.quantities.push_back(

@@ -3,6 +3,7 @@
 // Hosts LIGGGHTS; kept apart from OpenFOAM's headers and macros.
 #include "coupled/embeddedDem.h"
 
+#include "styles/entry/error_reports.h"
 #include "styles/entry/script_replay.h"
 #include "styles/entry/style_registry.h"
 
@@ -13,7 +14,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -26,17 +26,11 @@ std::string& running_log() {
   return *name;
 }
 
-// LIGGGHTS writes its error to the log, closes it and calls exit().
-void show_error_of_log() {
-  if (running_log().empty())
+// The script has ended the process by itself (quit, or an exit of a style) without an error that was shown.
+void report_early_end() {
+  if (running_log().empty() || styles::error_was_shown())
     return;
-  std::ifstream log(running_log());
-  std::string line, error;
-  while (std::getline(log, line))
-    if (line.rfind("ERROR", 0) == 0)
-      error = line;
-  std::fprintf(stderr, "annulusFoam: the DEM script ended early: %s\n",
-               error.empty() ? ("see " + running_log()).c_str() : error.c_str());
+  std::fprintf(stderr, "annulusFoam: error: the DEM script has ended before its end: see %s\n", running_log().c_str());
   std::fflush(stderr);
 }
 
@@ -48,7 +42,7 @@ void run_dem_script(const std::string& script, const std::string& log,
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (rank == 0) {
     running_log() = log;
-    std::atexit(show_error_of_log);
+    std::atexit(report_early_end);
   }
   // Not "-screen none": some stock styles print without asking whether there is a screen.
   std::vector<std::string> words = {"liggghts", "-log", log, "-screen", "/dev/null"};
@@ -60,6 +54,7 @@ void run_dem_script(const std::string& script, const std::string& log,
   std::vector<char*> arguments;
   for (std::string& word : words)
     arguments.push_back(word.data());
+  styles::name_hosting_program("annulusFoam");
   {
     LAMMPS_NS::LAMMPS liggghts(static_cast<int>(arguments.size()), arguments.data(), MPI_COMM_WORLD);
     styles::enter(&liggghts);

@@ -52,7 +52,7 @@ void expect_constant_momentum(const Outcome& outcome) {
   const double scale = std::hypot(start.at("momentum_x"), start.at("momentum_y"), start.at("momentum_z"));
   for (std::size_t i = 3; i < outcome.rows.size(); ++i)
     for (const char* column : {"momentum_x", "momentum_y", "momentum_z"})
-      EXPECT_NEAR(outcome.rows[i].at(column), start.at(column), 1e-10 * scale) << column << " at meeting " << i;
+      EXPECT_NEAR(outcome.rows[i].at(column), start.at(column), 1e-10 * scale) << column << " at coupling step " << i;
   // And much of it has moved from the particles to the fluid.
   EXPECT_LT(outcome.last("fastest_particle"), 0.8 * outcome.rows.front().at("fastest_particle"));
 }
@@ -83,7 +83,7 @@ TEST(CoupledBox, StepsBoundedByTheCourantNumberKeepTheMomentumAndTheMotion) {
   // The Courant number is known only after a step: the first particle that changes its cell makes one step too long.
   const std::size_t warned = 7;
   for (std::size_t i = warned; i < parts.rows.size(); ++i)
-    EXPECT_LT(parts.rows[i].at("courant"), 2 * kMostCourant) << "meeting " << i;
+    EXPECT_LT(parts.rows[i].at("courant"), 2 * kMostCourant) << "coupling step " << i;
   EXPECT_NEAR(parts.last("time"), whole.last("time"), 1e-9);
   EXPECT_NEAR(parts.last("fastest_particle"), whole.last("fastest_particle"), 0.01 * whole.last("fastest_particle"));
 }

@@ -61,7 +61,7 @@ std::string sphere(double x, double y, double z) {
 const char* const kSize = "set group all diameter 6.35e-3 density 2619\n";
 const char* const kWeight = "fix weight all gravity 9.81 vector 0 0 -1\n";
 
-std::string meets(int every, int steps) {
+std::string coupled_every(int every, int steps) {
   return "\nfix flow all fluid/couple link solver every " + std::to_string(every) + "\nrun " + std::to_string(steps) +
          "\n";
 }
@@ -103,7 +103,8 @@ Outcome falling(const Mud& mud, const std::string& name, double step, int steps,
   box.tolerance = 1e-7;
   box.coupling = "length 0.05;";
   box.script = script_head(box, 2e-4, kWeight) + sphere(0.5 * wide, 0.5 * wide, 0.4) + kSize + "fix mud all " +
-               mud.dem() + " sphericity " + std::to_string(sphericity) + meets(int(std::lround(step / 2e-4)), steps);
+               mud.dem() + " sphericity " + std::to_string(sphericity) +
+               coupled_every(int(std::lround(step / 2e-4)), steps);
   return run(box, name);
 }
 
@@ -178,7 +179,8 @@ TEST(CoupledClosedForms, PressureDropOfABed) {
   const double chien = solid / (alpha * kVolume) * std::pow(alpha, -1.65) * newtonian.force(superficial / alpha);
   for (const bool paper : {false, true}) {
     BoxCase box = lattice(solid, newtonian, superficial);
-    box.script += "fix hold all freeze\nfix mud all " + newtonian.dem(paper ? "chien" : "gidaspow") + meets(20, 4000);
+    box.script +=
+        "fix hold all freeze\nfix mud all " + newtonian.dem(paper ? "chien" : "gidaspow") + coupled_every(20, 4000);
     const Outcome outcome = run(box, paper ? "bed_chien" : "bed_ergun");
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     const double expected = paper ? chien : ergun;
@@ -193,7 +195,7 @@ TEST(CoupledClosedForms, HinderedSettling) {
     // The fluid as a whole stands still, so that the particles fall with the slip; alpha of it is the speed of
     // settling.
     BoxCase box = lattice(1 - r.alpha, kPowerLaw, 0);
-    box.script += kWeight + ("fix mud all " + kPowerLaw.dem()) + meets(20, 6000);
+    box.script += kWeight + ("fix mud all " + kPowerLaw.dem()) + coupled_every(20, 6000);
     const Outcome outcome = run(box, "settling_" + std::to_string(r.alpha));
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     EXPECT_NEAR(r.alpha * outcome.last("fastest_particle") / kPowerLaw.slip(1), r.ratio, 0.01 * r.ratio);
@@ -209,7 +211,7 @@ TEST(CoupledClosedForms, HoldUpOfAVerticalHole) {
   for (const auto& r : references) {
     BoxCase box = lattice(r.concentration, kPowerLaw, r.velocity);
     std::ostringstream text;
-    text << kWeight << "fix mud all " << kPowerLaw.dem() << " sphericity " << r.sphericity << meets(20, 6000);
+    text << kWeight << "fix mud all " << kPowerLaw.dem() << " sphericity " << r.sphericity << coupled_every(20, 6000);
     box.script += text.str();
     const Outcome outcome = run(box, "holdup_" + std::to_string(r.velocity) + "_" + std::to_string(r.sphericity));
     ASSERT_EQ(outcome.status, 0) << outcome.text;
@@ -228,7 +230,7 @@ TEST(CoupledClosedForms, OnsetOfFluidisation) {
     const double onset = alpha * newtonian.slip(alpha);
     for (const double part : {0.98, 1.02}) {
       BoxCase box = lattice(1 - alpha, newtonian, part * onset);
-      box.script += kWeight + ("fix mud all " + newtonian.dem()) + meets(20, 4000);
+      box.script += kWeight + ("fix mud all " + newtonian.dem()) + coupled_every(20, 4000);
       const Outcome outcome = run(box, "onset_" + std::to_string(mu) + "_" + std::to_string(part));
       ASSERT_EQ(outcome.status, 0) << outcome.text;
       const double rise = outcome.last("solids_flux") / (1 - alpha) / (box.size[0] * box.size[1]);

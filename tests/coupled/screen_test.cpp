@@ -69,7 +69,7 @@ void expect_shrinks_and_grows(const Outcome& outcome) {
   EXPECT_NE(outcome.text.find("to the fluid, 104 back"), std::string::npos) << outcome.text;
   EXPECT_NE(outcome.text.find("to the fluid, 32 back"), std::string::npos) << outcome.text;
   EXPECT_NE(outcome.text.find("to the fluid, 56 back"), std::string::npos) << outcome.text;
-  // Meetings 0 to 4 see all effects, so do those at steps 400 to 600; the pressure gradient comes back to stay.
+  // Coupling steps 0 to 4 see all effects, so do those at steps 400 to 600; the pressure gradient comes back to stay.
   const int all = kMeasured / kInterval, again = kMeasured / kInterval + 1, rest = kCouplingSteps - (400 / kInterval);
   EXPECT_EQ(number_after(outcome.text, " times, pressure_gradient "), all + rest) << outcome.text;
   EXPECT_EQ(number_after(outcome.text, " times, stress_divergence "), all + again) << outcome.text;

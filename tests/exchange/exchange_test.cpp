@@ -224,14 +224,14 @@ TEST(Exchange, TrafficGrowsWithTheParticlesThatCrossBetweenRanks) {
     settings.method = VoidFraction::centre;
     particleExchange exchange(*sharedMesh, settings);
     Foam::scalarField solid;
-    const auto meet = [&] {
+    const auto couple = [&] {
       exchange.deposit(scene.arrays(), kElapsed, solid, nullptr, nullptr);
       exchange.sample({}, scene.arrays(), {});
       return exchange.present().traffic().bytes;
     };
     // At the first coupling step all are searched for.
-    const double search = meet();
-    return meet() - search;
+    const double search = couple();
+    return couple() - search;
   };
   constexpr double kRandom = 0.15;
   Scene few = scattered(400), many = scattered(1600);

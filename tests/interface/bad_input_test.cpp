@@ -100,8 +100,7 @@ std::vector<std::string> sentences(const std::string& output) {
   std::vector<std::string> found;
   std::istringstream lines(output);
   std::string line;
-  const std::regex said(
-      R"(^(\[\d+\] )?((ERROR( on proc \d+)?|[A-Za-z-]+: error): |clusterShape: |annulusFoam: the DEM script ended))");
+  const std::regex said(R"(^(\[\d+\] )?((ERROR( on proc \d+)?|[A-Za-z-]+: error): ))");
   for (std::string before; std::getline(lines, line); before = line) {
     if (line.rfind("Run with --help", 0) == 0) {
       found.push_back(before); // as CLI11 refuses arguments

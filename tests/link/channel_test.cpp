@@ -17,6 +17,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <thread>
 
 namespace {
@@ -83,16 +84,35 @@ TEST(Channel, SocketIsOpenToItsOwnerOnlyAndGoesWithIt) {
 }
 
 TEST(Channel, SidesThatLeaveAreNoticedAtOnce) {
-  const std::string place = path("leave");
-  Channel fluid(Side::fluid, place, {});
-  {
-    Channel dem(Side::dem, place, {});
-    send_kind(dem, wire::Kind::run_ended);
-    fluid.receive();
+  for (const Side side : {Side::dem, Side::fluid}) {
+    const std::string place = path("leave");
+    auto fluid = std::make_unique<Channel>(Side::fluid, place, Timeout());
+    auto dem = std::make_unique<Channel>(Side::dem, place, Timeout());
+    // Both have heard the other.
+    send_kind(*dem, wire::Kind::run_ended);
+    fluid->receive();
+    fluid->settle();
+    send_kind(*fluid, wire::Kind::run_ended);
+    dem->receive();
+    (side == Side::dem ? dem : fluid).reset();
+    Channel& left = *(side == Side::dem ? fluid : dem);
+    const auto begun = std::chrono::steady_clock::now();
+    const auto give_up = [&begun] {
+      if (std::chrono::steady_clock::now() - begun > std::chrono::seconds(5))
+        throw Refusal("not noticed");
+    };
+    expect_refusal([&] { left.receive(give_up); }, "has gone");
+    EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(1));
   }
-  const auto begun = std::chrono::steady_clock::now();
-  expect_refusal([&] { fluid.receive(); }, "has gone");
-  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(1));
+}
+
+TEST(Channel, LastWordOfASideThatHasJustComeArrives) {
+  for (int turn = 0; turn < 20; ++turn) {
+    const std::string place = path("just_come");
+    Channel fluid(Side::fluid, place, {5.0, 5.0});
+    Channel(Side::dem, place, {}).refuse("the script is wrong");
+    expect_refusal([&] { fluid.receive(); }, "the script is wrong");
+  }
 }
 
 TEST(Channel, MissingSideIsNoticedWhenTheWaitIsOver) {
@@ -221,6 +241,9 @@ std::string read_along(const std::string& name, const std::string& keys) {
   Eavesdropper ear(tapped, real);
   {
     Channel dem(Side::dem, {tapped, keys}, {});
+    send_kind(dem, wire::Kind::run_ended);
+    fluid.receive();
+    fluid.settle();
     dem.send(Channel::Message(wire::encode_refusal("the secret recipe")));
     expect_refusal([&] { fluid.receive(); }, "the secret recipe");
   }

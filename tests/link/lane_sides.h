@@ -52,8 +52,9 @@ class EchoFluid : public link::FluidPeer {
     terms.offered = kAsked;
     return terms;
   }
-  int meet(const link::CouplingStep&, const link::ParticleArrays& particles,
-           const link::FluidSamples& samples) override {
+  std::string compare_walls(const link::WallDescription&) override { return ""; }
+  link::StepAnswer couple(const link::CouplingStep&, const link::ParticleArrays& particles,
+                          const link::FluidSamples& samples) override {
     long long all = 0;
     const auto own = static_cast<long long>(particles.count);
     MPI_Allreduce(&own, &all, 1, MPI_LONG_LONG, MPI_SUM, ranks_);
@@ -65,7 +66,7 @@ class EchoFluid : public link::FluidPeer {
     }
     if (fails)
       throw std::runtime_error("the mud has boiled");
-    return 15;
+    return {15, ""};
   }
   void advance() override {}
   std::string checkpoint(const link::CheckpointMark&) override { return ""; }
@@ -154,7 +155,7 @@ struct LoneDem {
     link::wire::write_rows_head(rows.data(), {rank, coupling_step}, 0, false);
     connection->send(std::move(rows));
   }
-  /// Comes, and meets once.
+  /// Comes, and couples once.
   void begin() {
     come();
     say_coupling_step(0);

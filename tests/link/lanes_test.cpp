@@ -60,7 +60,7 @@ std::string run_particles(MPI_Comm ranks, const link::Address& address, Rows row
   const bool rank_connections = peer.why_over_root().empty();
   for (int n = 0; n < kCouplingSteps; ++n) {
     const std::uint64_t before = peer.bytes();
-    EXPECT_EQ(peer.meet(coupling_step, flock.arrays(), flock.samples()), 15);
+    EXPECT_EQ(peer.couple(coupling_step, flock.arrays(), flock.samples()).stop_signal, 15);
     if (rank_connections)
       EXPECT_EQ(peer.bytes() - before, bytes_of_coupling_step(rank == 0, count_of(rank))) << "of rank " << rank;
     else
@@ -147,10 +147,10 @@ void expect_of_dem(const std::string& name, const std::function<void(LoneFluid&)
         link::CouplingStep coupling_step;
         coupling_step.needed = kAsked;
         Flock none(0, 0);
-        expect_part(refusal_of(sides.comm, kAtOnce, [&] { peer.meet(coupling_step, none.arrays(), none.samples()); }),
+        expect_part(refusal_of(sides.comm, kAtOnce, [&] { peer.couple(coupling_step, none.arrays(), none.samples()); }),
                     part);
         // Nothing is left to talk on.
-        EXPECT_THROW(peer.meet(coupling_step, none.arrays(), none.samples()), link::Refusal);
+        EXPECT_THROW(peer.couple(coupling_step, none.arrays(), none.samples()), link::Refusal);
       }
       MPI_Barrier(MPI_COMM_WORLD);
     }
@@ -228,7 +228,7 @@ TEST(RankConnections, FluidThatFailsTellsAllRanksOneSentence) {
       link::CouplingStep coupling_step;
       coupling_step.needed = kAsked;
       Flock none(0, 0);
-      expect_part(refusal_of(sides.comm, kAtOnce, [&] { peer.meet(coupling_step, none.arrays(), none.samples()); }),
+      expect_part(refusal_of(sides.comm, kAtOnce, [&] { peer.couple(coupling_step, none.arrays(), none.samples()); }),
                   "the mud has boiled");
     } else {
       EchoFluid fluid(sides.comm);
@@ -256,15 +256,15 @@ TEST(RankConnections, RankThatGoesEndsTheWaitsOfAll) {
       kAtOnce, "has gone");
 }
 
-TEST(RankConnections, RowsOfAnotherMeetingAreRefused) {
+TEST(RankConnections, RowsOfAnotherCouplingStepAreRefused) {
   expect_of_fluid(
-      "meeting",
+      "other-step",
       [](LoneDem& dem) {
         dem.come();
         dem.say_coupling_step(0);
         dem.say_rows(2);
       },
-      kAtOnce, "another meeting");
+      kAtOnce, "another coupling step");
 }
 
 TEST(RankConnections, RowsOfAnotherRankAreRefused) {
@@ -324,7 +324,7 @@ TEST(RankConnections, FluidThatAnswersOnOneOnlyAndGoes) {
       "has gone");
 }
 
-TEST(RankConnections, AnswerToAnotherMeetingIsRefused) {
+TEST(RankConnections, AnswerToAnotherCouplingStepIsRefused) {
   expect_of_dem(
       "answer",
       [](LoneFluid& fluid) {

@@ -38,11 +38,12 @@ class PromptFluid : public link::FluidPeer {
     terms.offered = dem.needed;
     return terms;
   }
-  int meet(const link::CouplingStep&, const link::ParticleArrays& particles,
-           const link::FluidSamples& samples) override {
+  std::string compare_walls(const link::WallDescription&) override { return ""; }
+  link::StepAnswer couple(const link::CouplingStep&, const link::ParticleArrays& particles,
+                          const link::FluidSamples& samples) override {
     for (std::size_t i = 0; i < particles.count; ++i)
       samples.fraction()[i] = particles.position[i][0];
-    return 0;
+    return {};
   }
   void advance() override {}
   std::string checkpoint(const link::CheckpointMark&) override { return ""; }
@@ -92,7 +93,7 @@ std::vector<double> times_of_coupling_steps(link::FluidPeer& fluid, std::size_t 
   std::vector<double> seconds;
   for (int n = 0; n < kCouplingSteps; ++n) {
     const double begun = MPI_Wtime();
-    fluid.meet(coupling_step, particles, samples);
+    fluid.couple(coupling_step, particles, samples);
     seconds.push_back(MPI_Wtime() - begun);
   }
   for (std::size_t i = 0; i < count; ++i)
@@ -121,7 +122,7 @@ std::optional<Words> read(int argc, char** argv) {
 }
 
 /// One side's work; on rank 0 of DEM the sorted times.
-std::vector<double> meet(bool dem, MPI_Comm side, const char* path, const Words& arguments, bool extents, Rows way) {
+std::vector<double> couple(bool dem, MPI_Comm side, const char* path, const Words& arguments, bool extents, Rows way) {
   if (!dem) {
     PromptFluid fluid;
     link::FluidServer(side, std::string(path), {}, 1).serve(fluid);
@@ -146,7 +147,7 @@ int measure(bool dem, MPI_Comm side, const Words& arguments, bool extents, Rows 
                 int(rank_connections));
   MPI_Bcast(path, sizeof path, MPI_CHAR, 0, MPI_COMM_WORLD);
   const double begun = cpu_seconds();
-  const std::vector<double> seconds = meet(dem, side, path, arguments, extents, way);
+  const std::vector<double> seconds = couple(dem, side, path, arguments, extents, way);
   const double mine = cpu_seconds() - begun;
   double all = 0;
   MPI_Reduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, 0, MPI_COMM_WORLD);
@@ -158,7 +159,7 @@ int measure(bool dem, MPI_Comm side, const Words& arguments, bool extents, Rows 
   const std::size_t there = link::wire::particle_row_bytes(extents), back = link::wire::samples_row_bytes(kAsked);
   std::printf(
       "%ld particles%s, %ld + %ld ranks, %s: median %.3f ms, fastest %.3f ms, slowest %.3f ms, %.0f ns a "
-      "particle; processor time of all ranks %.3f ms; %zu + %zu bytes a particle, %.1f kB a meeting from and to "
+      "particle; processor time of all ranks %.3f ms; %zu + %zu bytes a particle, %.1f kB a coupling step from and to "
       "rank 0 of DEM\n",
       arguments.particles, extents ? " with extents" : "", arguments.dem_ranks, size - arguments.dem_ranks,
       rank_connections ? "on lanes" : "over rank 0", 1e3 * seconds[seconds.size() / 2], 1e3 * seconds.front(),

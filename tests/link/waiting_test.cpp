@@ -43,9 +43,10 @@ class SlowFluid : public link::FluidPeer {
     terms.domain = dem.domain;
     return terms;
   }
-  int meet(const link::CouplingStep&, const link::ParticleArrays&, const link::FluidSamples&) override {
+  std::string compare_walls(const link::WallDescription&) override { return ""; }
+  link::StepAnswer couple(const link::CouplingStep&, const link::ParticleArrays&, const link::FluidSamples&) override {
     std::this_thread::sleep_for(kPause);
-    return 0;
+    return {};
   }
   void advance() override {}
   std::string checkpoint(const link::CheckpointMark&) override { return ""; }
@@ -62,7 +63,7 @@ void run_particles(MPI_Comm ranks, const std::string& address) {
   fluid.agree(terms);
   for (int n = 0; n < kCouplingSteps; ++n) {
     std::this_thread::sleep_for(kPause);
-    fluid.meet({}, {}, {});
+    fluid.couple({}, {}, {});
   }
 }
 

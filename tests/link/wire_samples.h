@@ -93,6 +93,16 @@ inline link::wire::Bytes rows_message(bool extents) {
   return message;
 }
 
+inline link::WallDescription some_walls() {
+  link::WallDescription walls;
+  walls.primitives.push_back(
+      {"hole", "fix hole (cylinder)", link::PrimitiveWall::Form::cylinder, {1, 2, 3}, {0, 0, 1}, 0.5, {}, {0, 0, 5}});
+  walls.primitives.emplace_back();
+  walls.meshes.push_back({"lid", "mesh 'lid'", true, true, {{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}}, {}});
+  walls.meshes.back().velocities = walls.meshes.back().corners;
+  return walls;
+}
+
 /// Reads rows with or without extents, whichever fits.
 template <class Decode> void use_rows(Decode&& decode) {
   using namespace link::wire;
@@ -133,6 +143,9 @@ inline std::vector<link::wire::Bytes> valid_messages() {
           encode_bare(Kind::run_ended),
           encode_bare(Kind::farewell),
           encode_bare(Kind::advance),
+          encode_bare(Kind::hello),
+          encode(some_walls()),
+          encode_walls_compared("warning: no wall\nwarning: no patch\n"),
           encode(link::CheckpointMark{640, 7}),
           encode_checkpointed("/case/checkpoints/fluid-640.complete")};
 }
@@ -159,6 +172,12 @@ inline bool accepted(const std::byte* data, std::size_t size) {
     case Kind::checkpoint:
       (void)decode_checkpoint(message);
       break;
+    case Kind::walls:
+      (void)decode_walls(message);
+      break;
+    case Kind::walls_compared:
+      (void)decode_walls_compared(message);
+      break;
     case Kind::checkpointed:
       (void)decode_checkpointed(message);
       break;
@@ -178,7 +197,8 @@ inline bool accepted(const std::byte* data, std::size_t size) {
       (void)decode_no_rank_connections(message);
       break;
     case Kind::samples: {
-      const Rows rows = decode_samples(message, kCouplingStep, kRows, kAsked);
+      std::string news;
+      const Rows rows = decode_samples(message, kCouplingStep, kRows, kAsked, &news);
       double velocity[kRows][3], fraction[kRows], gradient[kRows][3];
       link::CellHint cell_hints[kRows];
       link::FluidSamples samples;

@@ -99,7 +99,7 @@ TEST(Wire, TermsArriveAsSent) {
   EXPECT_EQ(back.gravity[2], -9.8);
 }
 
-TEST(Wire, MeetingArrivesAsSent) {
+TEST(Wire, CouplingStepArrivesAsSent) {
   for (const bool extents : {false, true}) {
     const Bytes message = coupling_step_message(extents);
     CouplingStep coupling_step;
@@ -192,7 +192,8 @@ TEST(Wire, EveryTruncationIsRefused) {
       // And with a header that states the shorter length; a text may have any.
       const Bytes honest = with(cut, kLengthAt, std::uint64_t(size - wire::kHeaderBytes));
       const wire::Kind kind = wire::kind_of(view(message));
-      if (kind != wire::Kind::refusal && kind != wire::Kind::checkpointed && kind != wire::Kind::no_rank_connections) {
+      if (kind != wire::Kind::refusal && kind != wire::Kind::checkpointed && kind != wire::Kind::no_rank_connections &&
+          kind != wire::Kind::walls_compared) {
         EXPECT_FALSE(accepted(honest.data(), honest.size()));
       }
     }
@@ -227,7 +228,36 @@ TEST(Wire, LanesArriveAsSentAndOthersAreRefused) {
   expect_refusal([&] { wire::decode_dem_terms(view(wire::encode(dem))); }, "more lanes than there can be");
 }
 
-TEST(Wire, RowsOfAnotherRankOrMeetingAreRefused) {
+TEST(Wire, WallsAndNewsArriveAsSent) {
+  const WallDescription sent = some_walls();
+  const WallDescription got = wire::decode_walls(view(wire::encode(sent)));
+  ASSERT_EQ(got.primitives.size(), 2u);
+  EXPECT_EQ(got.primitives[0].id, "hole");
+  EXPECT_EQ(got.primitives[0].name, "fix hole (cylinder)");
+  EXPECT_EQ(got.primitives[0].form, PrimitiveWall::Form::cylinder);
+  EXPECT_EQ(got.primitives[0].point, sent.primitives[0].point);
+  EXPECT_EQ(got.primitives[0].radius, 0.5);
+  EXPECT_EQ(got.primitives[0].angular_velocity[2], 5);
+  ASSERT_EQ(got.meshes.size(), 1u);
+  EXPECT_TRUE(got.meshes[0].moves);
+  EXPECT_EQ(got.meshes[0].corners, sent.meshes[0].corners);
+  EXPECT_EQ(got.meshes[0].velocities, sent.meshes[0].velocities);
+  expect_refusal([&] { wire::decode_walls(view(with(wire::encode(sent), wire::kHeaderBytes, ~std::uint64_t(0)))); },
+                 "does not hold what it states");
+  EXPECT_EQ(wire::decode_walls_compared(view(wire::encode_walls_compared("a\nb\x1b"))), "a\nb?");
+
+  const std::string text = "warning: gone\n";
+  Bytes samples = samples_message();
+  const std::size_t rows = samples.size();
+  samples.resize(rows + text.size());
+  wire::write_samples_head(samples.data(), kCouplingStep, kRows, kAsked, 0, text.size());
+  std::memcpy(samples.data() + rows, text.data(), text.size());
+  std::string news;
+  EXPECT_EQ(wire::decode_samples(view(samples), kCouplingStep, kRows, kAsked, &news).count, kRows);
+  EXPECT_EQ(news, text);
+}
+
+TEST(Wire, RowsOfAnotherRankOrCouplingStepAreRefused) {
   const Bytes message = rows_message(true);
   EXPECT_EQ(wire::decode_rows(view(message), true, {kRankConnection, kCouplingStep}).count, kRows);
   expect_refusal([&] { wire::decode_rows(view(message), true, {kRankConnection + 1, kCouplingStep}); }, "another rank");
@@ -235,7 +265,7 @@ TEST(Wire, RowsOfAnotherRankOrMeetingAreRefused) {
       [&] {
         wire::decode_rows(view(message), true, {kRankConnection, kCouplingStep + 1});
       },
-      "another meeting");
+      "another coupling step");
   expect_refusal(
       [&] {
         wire::decode_rows(view(message), false, {kRankConnection, kCouplingStep});

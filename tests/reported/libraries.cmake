@@ -1,4 +1,8 @@
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-eccentra_reported(libraries ROWS library_in_the_working_folder DEPENDS clusterShape annulusReport
+set(_programs clusterShape annulusReport eccentra-keys)
+if(ECCENTRA_OPENFOAM)
+  list(APPEND _programs annulusFoam annulusMesh)
+endif()
+eccentra_reported(libraries ROWS library_in_the_working_folder DEPENDS ${_programs}
   ENVIRONMENT "ECCENTRA_BUILD=${PROJECT_BINARY_DIR}")

@@ -41,7 +41,8 @@ TEST(Reported, library_in_the_working_folder) {
     const ProgramResult made = run_program({"cc", "-shared", "-fPIC", "-o", name, "e.c"}, {trap, {}, 60});
     ASSERT_EQ(made.status, 0) << made.output;
   }
-  for (const char* program : {"eccentra-dem", "annulusReport", "clusterShape", "eccentra-keys"})
+  for (const char* program :
+       {"eccentra-dem", "annulusReport", "clusterShape", "eccentra-keys", "annulusFoam", "annulusMesh"})
     EXPECT_EQ(run_program({required_environment("ECCENTRA_BIN") + "/" + program, "-help"}, {trap, {}, 60})
                   .output.find("TRAPPED"),
               std::string::npos)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // LIGGGHTS has no plug-in loader. Its library is not linked -Bsymbolic, so a definition of ours comes first, whether we
 // were preloaded into the stock binary or linked into a launcher: before a script is read, we enter.
+#include "styles/entry/error_reports.h"
 #include "styles/entry/host_symbols.h"
 #include "styles/entry/script_replay.h"
 #include "styles/entry/style_registry.h"
@@ -79,12 +80,14 @@ namespace LAMMPS_NS {
 
 void Input::file() {
   enter(lmp);
+  eccentra::styles::watch_errors(lmp);
   static const auto stock = next_definition<void (*)(Input*)>("_ZN9LAMMPS_NS5Input4fileEv");
   stock(this);
 }
 
 void Input::file(const char* name) {
   enter(lmp);
+  eccentra::styles::watch_errors(lmp);
   static const auto stock = next_definition<void (*)(Input*, const char*)>("_ZN9LAMMPS_NS5Input4fileEPKc");
   stock(this, name);
 }

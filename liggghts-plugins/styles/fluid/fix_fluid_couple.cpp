@@ -8,6 +8,7 @@
 #include "styles/entry/fix_checkpoint.h"
 #include "styles/entry/script_replay.h"
 #include "styles/entry/style_registry.h"
+#include "styles/walls/script_walls.h"
 
 #include <mpi.h>
 
@@ -26,13 +27,15 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 using namespace LAMMPS_NS;
 
 namespace eccentra::styles {
 
 namespace {
-const styles::RegisterFix<FixFluidCouple> kRecord("fluid/couple", "meets a fluid solver every N steps");
+const styles::RegisterFix<FixFluidCouple> kRecord("fluid/couple",
+                                                  "exchanges particles and flow with a solver every N steps");
 
 constexpr int kCellHintDoubles = 2;
 /// Entries of the vector of stock fix insert/*.
@@ -81,6 +84,9 @@ void FixFluidCouple::connect() {
     using Rows = link::SocketPeer::Rows;
     own_peer_ = std::make_unique<link::SocketPeer>(world, link::Address(address_, keys_), timeout_,
                                                    rank_connections_ ? Rows::on_rank_connections : Rows::over_root);
+    // An error of LIGGGHTS, on whatever rank, is the fluid side's news, too.
+    last_words_ =
+        std::make_unique<styles::LastWords>([this](const std::string& arguments) { own_peer_->leave(arguments); });
   } catch (const link::Refusal& refusal) {
     refuse(refusal.what());
   }
@@ -112,7 +118,7 @@ void FixFluidCouple::read(const std::vector<std::string>& arguments) {
                (arguments[next] == "auto" || arguments[next] == "off")) {
       checkpoints_ = arguments[next++] == "auto" ? Checkpoints::by_clock : Checkpoints::off;
     } else if (keyword == "every" || keyword == "checkpoint") {
-      const std::string what = keyword == "every" ? "DEM steps" : "meetings";
+      const std::string what = keyword == "every" ? "DEM steps" : "coupling steps";
       const std::string& text = value(("a number of " + what).c_str());
       char* end = nullptr;
       const long number = std::strtol(text.c_str(), &end, 10);
@@ -154,7 +160,7 @@ void FixFluidCouple::read(const std::vector<std::string>& arguments) {
         "overlap yes belongs to link socket: with link solver particles and fluid share their ranks, which take turns "
         "whatever the order; drop it");
   if (interval_ == 0)
-    refuse("the word 'every' is missing: add every N, the DEM steps from one meeting with the fluid to the next");
+    refuse("the word 'every' is missing: add every N, the DEM steps from one coupling step to the next");
 }
 
 int FixFluidCouple::setmask() {
@@ -170,7 +176,7 @@ void FixFluidCouple::post_create() {
 void FixFluidCouple::init() {
   forces_ = FixFluidForce::find(lmp);
   if (!forces_)
-    refuse("meets a fluid that nothing feels: add fix fluid/force before the run");
+    refuse("couples a fluid that nothing feels: add fix fluid/force before the run");
   forces_->announce_source(id);
   if (resuming_ && styles::forces_carry_on())
     forces_->carry_on();
@@ -225,26 +231,44 @@ void FixFluidCouple::setup(int) {
     cell_hints_.assign(cell_hints_.size(), link::CellHint{});
   if (!agreed_)
     begin_checkpoints();
-  pack();
+  if (resuming_)
+    pack();
   try {
     const std::uint64_t layout = peer_->agree(terms()).layout;
     if (layout != layout_)
       cell_hints_.assign(cell_hints_.size(), link::CellHint{});
     layout_ = layout;
+    compare_walls(false);
   } catch (const link::Refusal& refusal) {
     refuse(refusal.what());
   }
   if (!agreed_)
     announce_rank_connections();
   agreed_ = true;
-  if (!met_) {
+  if (!began_) {
     forces_->reset_reaction();
-    meet(0.0);
-    met_ = true;
+    couple(0.0);
+    began_ = true;
   }
   countdown_ = interval_;
   plan_checkpoint();
   leave_fluid();
+}
+
+void FixFluidCouple::compare_walls(bool running) {
+  link::WallDescription walls = walls_of_script(lmp, running);
+  // Meshes that move belong elsewhere after a while; what stands in the script stays what it is.
+  link::WallDescription typed = walls;
+  for (link::TriangleWall& mesh : typed.meshes) {
+    mesh.corners.clear();
+    mesh.velocities.clear();
+  }
+  link::wire::Bytes arguments = link::wire::encode(typed);
+  if (arguments == compared_walls_)
+    return;
+  walls_move_ = !running && any_moves(walls);
+  announce(peer_->compare_walls(walls));
+  compared_walls_ = std::move(arguments);
 }
 
 void FixFluidCouple::announce_rank_connections() const {
@@ -287,7 +311,14 @@ void FixFluidCouple::end_of_step() {
     return;
   countdown_ = interval_;
   const int stop_before = stop_;
-  meet(interval_ * update->dt);
+  couple(interval_ * update->dt);
+  if (walls_move_) {
+    try {
+      compare_walls(true);
+    } catch (const link::Refusal& refusal) {
+      refuse(refusal.what());
+    }
+  }
   forces_->reset_reaction();
   ++coupling_steps_;
   if (due_ || stop_before)
@@ -314,11 +345,15 @@ void FixFluidCouple::post_run() {
 
 void FixFluidCouple::pack() {
   const int count = atom->nlocal;
-  position_.resize(3 * std::size_t(count));
+  if (overlap_)
+    std::swap(earlier_, before_);
+  std::swap(before_, packed_);
+  packed_.tags.assign(atom->tag, atom->tag + count);
+  packed_.position.resize(3 * std::size_t(count));
   volume_.resize(count);
   extent_.resize(bodies_ ? link::kExtentDoubles * std::size_t(count) : 0);
   for (int i = 0; i < count; ++i) {
-    double* x = position_.data() + 3 * std::size_t(i);
+    double* x = packed_.position.data() + 3 * std::size_t(i);
     std::copy_n(atom->x[i], 3, x);
     // Between neighbour rebuilds LIGGGHTS lets positions run out of a periodic box.
     for (int k = 0; k < 3; ++k)
@@ -377,7 +412,7 @@ void FixFluidCouple::add_totals(double computed, link::CouplingStep& coupling_st
     for (int k = 0; k < 3; ++k) {
       mine[kImpulse + k] += reaction.impulse[i][k];
       mine[kMomentum + k] += atom->rmass[i] * atom->v[i][k] + 0.5 * update->dt * atom->f[i][k];
-      mine[kPosition + k] += volume_[i] * position_[3 * std::size_t(i) + k];
+      mine[kPosition + k] += volume_[i] * packed_.position[3 * std::size_t(i) + k];
       mine[kVelocitySum + k] += volume_[i] * atom->v[i][k];
       speed += atom->v[i][k] * atom->v[i][k];
     }
@@ -407,7 +442,7 @@ void FixFluidCouple::add_totals(double computed, link::CouplingStep& coupling_st
   std::copy_n(all + kVelocitySum, 3, sums.volume_velocity);
 }
 
-void FixFluidCouple::meet(double elapsed) {
+void FixFluidCouple::couple(double elapsed) {
   const double arrived = MPI_Wtime();
   const double waited = link::waiting_seconds() - waited_before_;
   const double computed = elapsed > 0 ? std::max(0.0, arrived - left_fluid_at_ - waited) : 0.0;
@@ -424,7 +459,7 @@ void FixFluidCouple::meet(double elapsed) {
   const link::FluidReaction reaction = forces_->reaction();
   link::ParticleArrays particles;
   particles.count = atom->nlocal;
-  particles.position = reinterpret_cast<RowsOfThree>(position_.data());
+  particles.position = reinterpret_cast<RowsOfThree>(packed_.position.data());
   particles.volume = volume_.data();
   particles.impulse = reaction.impulse;
   particles.drag_coefficient = reaction.drag_coefficient;
@@ -432,13 +467,21 @@ void FixFluidCouple::meet(double elapsed) {
     particles.extent = reinterpret_cast<const double(*)[link::kExtentDoubles]>(extent_.data());
   particles.cell_hint = cell_hints_.data();
   pack_seconds_ = MPI_Wtime() - arrived;
+  const std::string departed = departures(coupling_step.totals);
   try {
-    const int signal = peer_->meet(coupling_step, particles, forces_->samples());
+    const link::StepAnswer answer = peer_->couple(coupling_step, particles, forces_->samples());
     if (stop_ == 0)
-      stop_ = signal;
+      stop_ = answer.stop_signal;
+    announce(answer.news);
   } catch (const link::Refusal& refusal) {
     keep_particles();
-    refuse(refusal.what());
+    const std::string why = with_ids(refusal.what());
+    const std::string who = why.find(link::kVolumeChanged) == std::string::npos ? "" : changes();
+    refuse(who.empty() ? why : who + ": " + why);
+  }
+  if (!departed.empty()) {
+    announce(departed + "; later ones are counted only (columns left and outside of coupling.csv)");
+    told_of_departure_ = true;
   }
   ahead_ = false;
   leave_fluid();
@@ -468,8 +511,11 @@ int FixFluidCouple::unpack_exchange(int row, double* buffer) {
 }
 
 double FixFluidCouple::memory_usage() {
-  return double(cell_hints_.capacity() * sizeof(link::CellHint)) +
-         double((position_.capacity() + volume_.capacity() + extent_.capacity()) * sizeof(double));
+  double bytes = double(cell_hints_.capacity() * sizeof(link::CellHint)) +
+                 double((volume_.capacity() + extent_.capacity()) * sizeof(double));
+  for (const PackedParticles* packed : {&packed_, &before_, &earlier_})
+    bytes += double(packed->tags.capacity() * sizeof(int) + packed->position.capacity() * sizeof(double));
+  return bytes;
 }
 
 } // namespace eccentra::styles

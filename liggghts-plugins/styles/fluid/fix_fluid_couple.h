@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fix style fluid/couple: every N steps the particles meet the fluid, inside one LIGGGHTS run.
+// Fix style fluid/couple: every N steps particles and flow are exchanged, inside one LIGGGHTS run.
 #pragma once
 
 #include "link/fluid_peer.h"
@@ -8,6 +8,7 @@
 #include "link/socket/socket_peer.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/entry/dem_checkpoint.h"
+#include "styles/entry/error_reports.h"
 #include "styles/fluid/fix_fluid_force.h"
 
 #include <mpi.h>
@@ -19,6 +20,12 @@
 #include <vector>
 
 namespace eccentra::styles {
+
+/// Own particles of one coupling step.
+struct PackedParticles {
+  std::vector<int> tags;
+  std::vector<double> position; ///< rows of three, inside a periodic box
+};
 
 /// Hands positions, volumes and the impulses that fix fluid/force has gathered to the fluid, and puts what the flow is
 /// at each particle into fix fluid/force. Knows the fluid only as a link::FluidPeer.
@@ -55,7 +62,18 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   void announce_rank_connections() const;
   void read(const std::vector<std::string>& arguments);
   link::DemTerms terms() const;
-  void meet(double elapsed);
+  void couple(double elapsed);
+  /// Compares the script's walls with the mesh, unless they are those of the last comparison.
+  void compare_walls(bool running);
+  /// Prints sentences of the fluid side, with the ids of the particles of which they give the place.
+  void announce(const std::string& news) const;
+  /// Puts the ids into "particle at (x y z)". Collective.
+  std::string with_ids(std::string text) const;
+  /// Which particles have left the box since the last coupling step, unless that has been said before; empty if none
+  /// has. Collective.
+  std::string departures(const link::DemTotals& now);
+  /// Which particles have come or gone. Collective.
+  std::string changes() const;
   /// Sees to it that the atoms are sorted and listed anew in the step of the next exchange, if a checkpoint may be
   /// written there: the run that reads it begins with just that.
   void plan_checkpoint();
@@ -83,7 +101,7 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   bool rank_connections_ = true; ///< ranks send their particles themselves where that is possible
   bool ahead_ = false;           ///< with overlap: the fluid takes the step of the present interval
   bool agreed_ = false;
-  bool met_ = false;
+  bool began_ = false;
   Checkpoints checkpoints_ = Checkpoints::by_clock;
   styles::CheckpointClock clock_;
   int checkpoint_every_ = 0;        ///< coupling steps, if counted
@@ -98,13 +116,18 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   FixFluidForce* forces_ = nullptr;
   styles::FixClusterBodies* bodies_ = nullptr; ///< null where all particles are spheres
 
-  std::vector<link::CellHint> cell_hints_; ///< per atom; migrates
-  std::vector<double> position_;           ///< packed rows of three
+  std::vector<link::CellHint> cell_hints_;    ///< per atom; migrates
+  PackedParticles packed_, before_, earlier_; ///< of the last three coupling steps; `earlier_` with overlap only
   std::vector<double> volume_;
   std::vector<double> extent_; ///< packed rows of link::kExtentDoubles; empty where all particles are spheres
-  double left_fluid_at_ = 0;   ///< wall-clock time when the last coupling step ended [s]
-  double waited_before_ = 0;   ///< link::waiting_seconds() at that time
-  link::LoadSums load_;        ///< of the present run
+  std::int64_t staying_ = -1;  ///< particles less those inserted, at the last coupling step
+  bool told_of_departure_ = false;
+  link::wire::Bytes compared_walls_;
+  bool walls_move_ = false; ///< and their velocities are still to be compared
+  std::unique_ptr<styles::LastWords> last_words_;
+  double left_fluid_at_ = 0; ///< wall-clock time when the last coupling step ended [s]
+  double waited_before_ = 0; ///< link::waiting_seconds() at that time
+  link::LoadSums load_;      ///< of the present run
   double pack_seconds_ = 0;
 };
 

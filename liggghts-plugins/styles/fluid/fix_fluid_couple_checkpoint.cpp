@@ -134,7 +134,7 @@ void FixFluidCouple::write_restart(FILE* file) {
   std::fwrite(state, sizeof state, 1, file);
 }
 
-// A restart file that is no checkpoint of both sides begins a run of its own: the particles meet the fluid that is
+// A restart file that is no checkpoint of both sides begins a run of its own: it begins with the fluid that is
 // there.
 void FixFluidCouple::restart(char* buffer) {
   std::int64_t state[4];
@@ -145,7 +145,7 @@ void FixFluidCouple::restart(char* buffer) {
   coupling_steps_ = state[2];
   layout_ = static_cast<std::uint64_t>(state[3]);
   resuming_ = true;
-  met_ = true;
+  began_ = true;
 }
 
 } // namespace eccentra::styles

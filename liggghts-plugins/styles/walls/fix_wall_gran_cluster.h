@@ -39,6 +39,9 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   FixWallGranCluster(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
   ~FixWallGranCluster() override;
 
+  /// What the user typed: the wall's surface or the ids of its meshes, and how it moves.
+  const WallArguments& arguments() const { return arguments_; }
+
   int setmask() override;
   void post_create() override;
   void pre_delete(bool unfix) override;

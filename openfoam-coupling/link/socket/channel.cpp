@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The connection on ZeroMQ: DEALER to ROUTER, their heartbeats, and the monitor, which tells when the other side has
-// gone. The ROUTER hears everybody and holds with the first who speaks the protocol: strangers cannot keep the sides
-// apart.
+// gone. The ROUTER hears everybody. Where strangers can connect (TCP without keys) it holds with the first whose terms
+// it accepts: until then nobody who comes, says whatever, or leaves ends its wait. Elsewhere it holds with the first
+// who speaks the protocol.
 #include "link/socket/channel.h"
 
 #include "link/socket/key_guard.h"
@@ -22,7 +23,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <set>
+#include <thread>
 
 namespace eccentra::link {
 namespace {
@@ -35,7 +38,9 @@ constexpr double kAnswerWithin = 0.6;
 /// Time that the last message of a closing side has to leave [ms].
 constexpr int kLinger = 1000;
 constexpr int kReconnect = 50; ///< [ms]
-constexpr long kLook = 100;    ///< from one look of a caller that waits to the next [ms]
+/// Time in which a connection to who is there is made [ms].
+constexpr int kConnect = 200;
+constexpr long kLook = 100; ///< from one look of a caller that waits to the next [ms]
 constexpr int kNobody = -1;
 const char* const kMonitor = "inproc://eccentra-link-monitor";
 
@@ -103,12 +108,15 @@ struct Channel::State {
   zmq::socket_t socket;
   zmq::socket_t monitor;
   Clock::time_point opened = Clock::now();
-  std::string bound_path;    ///< of the Unix socket that is ours to remove
-  std::set<int> connections; ///< file descriptors
-  int peer = kNobody;        ///< the one that the other side speaks through
-  std::string peer_name;     ///< the ROUTER's name for it
-  bool came = false;         ///< somebody who speaks ZeroMQ is or was there
-  bool heard = false;        ///< it has sent a message
+  std::string bound_path;             ///< of the Unix socket that is ours to remove
+  std::set<int> connections;          ///< file descriptors
+  int peer = kNobody;                 ///< the one that the other side speaks through
+  std::string peer_name;              ///< the ROUTER's name for it
+  std::map<std::string, int> greeted; ///< of the fluid side: who has said hello and no more, and through which
+  std::string note;                   ///< of the fluid side: what became of who came last
+  bool came = false;                  ///< somebody who speaks ZeroMQ is or was there
+  bool heard = false;                 ///< the other side has sent a message
+  bool settled = false;               ///< whoever is heard first is the other side
   bool gone = false;
   bool turned_away = false; ///< the other side does not take this one's keys, or has none
   std::uint64_t bytes = 0;  ///< of messages, both ways
@@ -116,7 +124,7 @@ struct Channel::State {
   State(Side s, const Address& a, const Timeout& p)
       : side(s), address(a.arguments), keys(a.keys), connection(a.connection), patience(p),
         socket(context, s == Side::dem ? zmq::socket_type::dealer : zmq::socket_type::router),
-        monitor(context, zmq::socket_type::pair) {}
+        monitor(context, zmq::socket_type::pair), settled(s == Side::dem) {}
 
   const char* other() const { return side == Side::dem ? "the fluid side" : "the DEM side"; }
 
@@ -126,6 +134,7 @@ struct Channel::State {
     Address asked(address, keys);
     asked.connection = connection;
     const std::string endpoint = endpoint_of(asked);
+    settled = side == Side::dem || endpoint[0] == 'i' || !keys.empty();
     if (connection >= 0)
       address = endpoint;
     use_keys();
@@ -144,6 +153,9 @@ struct Channel::State {
     monitor.connect(kMonitor);
     if (side == Side::dem) {
       socket.connect(endpoint);
+      // Goes out when there is a connection.
+      const wire::Bytes hello = wire::encode_bare(wire::Kind::hello);
+      (void)socket.send(zmq::buffer(hello.data(), hello.size()), zmq::send_flags::dontwait);
       return;
     }
     socket.set(zmq::sockopt::router_mandatory, true);
@@ -197,9 +209,54 @@ struct Channel::State {
         // The fluid side goes on waiting: it was a stranger. The DEM side has found the address that it was told.
         turned_away = turned_away || side == Side::dem;
       else if (what == ZMQ_EVENT_DISCONNECTED && connections.erase(value) > 0)
-        gone = gone || (heard ? value == peer : came && connections.empty());
+        leave(value);
     }
   }
+
+  void leave(int connection) {
+    if (!settled) {
+      if (heard && connection == peer)
+        forget("who came has gone before both sides had agreed");
+      for (auto at = greeted.begin(); at != greeted.end();)
+        if (at->second == connection) {
+          at = greeted.erase(at);
+          begin_anew("who came has gone before it stated its terms");
+        } else {
+          ++at;
+        }
+      return;
+    }
+    gone = gone || (heard ? connection == peer : came && connections.empty());
+  }
+
+  /// A side that leaves at once has not seen yet that the other one is there, and its last word needs a connection.
+  void await_handshake() {
+    const Clock::time_point begun = Clock::now();
+    for (;;) {
+      read_monitor();
+      const int allowed = connections.empty() ? kConnect : kLinger;
+      if (came || gone || turned_away || Clock::now() - begun >= std::chrono::milliseconds(allowed))
+        return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
+  /// The other side may come again.
+  void begin_anew(const std::string& why) {
+    note = why;
+    opened = Clock::now();
+  }
+
+  /// The one that was heard is not the other side.
+  void forget(const std::string& why) {
+    heard = false;
+    peer = kNobody;
+    peer_name.clear();
+    begin_anew(why);
+  }
+
+  /// Whether there is a reason to wait without an end.
+  bool is_awaited() const { return settled ? came : heard || !greeted.empty(); }
 
   /// False if the other side is not there.
   bool send(const std::string& to, zmq::message_t& message) {
@@ -227,22 +284,57 @@ struct Channel::State {
         (void)socket.recv(message, zmq::recv_flags::none);
       for (zmq::message_t rest; parts == 1 ? message.more() : rest.more(); ++parts)
         (void)socket.recv(rest, zmq::recv_flags::none);
-      const bool ours = parts == 1 && wire::is_ours({static_cast<const std::byte*>(message.data()), message.size()});
+      const wire::View view{static_cast<const std::byte*>(message.data()), message.size()};
+      const bool ours = parts == 1 && wire::is_ours(view);
       const std::string from = side == Side::fluid ? name.to_string() : "";
-      if (!heard && ours) {
+      if (heard && from == peer_name) {
+        if (ours)
+          return true;
+        const std::string why = "a message is not Eccentra's: check who uses the address";
+        if (settled)
+          throw Refusal(why);
+        turn_away(from, why);
+        forget(why);
+        continue;
+      }
+      const int through = zmq_msg_get(message.handle(), ZMQ_SRCFD);
+      if (!heard && ours && (side == Side::dem || listens_to(from, view, through))) {
         heard = true;
         peer_name = from;
-        peer = zmq_msg_get(message.handle(), ZMQ_SRCFD);
+        peer = through;
         return true;
       }
-      if (heard && from == peer_name) {
-        if (!ours)
-          throw Refusal("a message is not Eccentra's: check who uses the address");
-        return true;
-      }
-      turn_away(from, "another run uses this address, or the message is not Eccentra's: take another address");
+      if (heard || !ours)
+        turn_away(from, "another run uses this address, or the message is not Eccentra's: take another address");
     }
     return false;
+  }
+
+  /// The fluid side, as long as nobody is heard: whether this is the first message of one who may be the other side.
+  /// Whoever is not is turned away, and the wait goes on.
+  bool listens_to(const std::string& from, const wire::View& view, int through) {
+    // A connection that has closed may have left its number to this one.
+    read_monitor();
+    try {
+      const wire::Kind kind = wire::kind_of(view);
+      if (kind == wire::Kind::hello) {
+        greeted[from] = through;
+        return false;
+      }
+      if (!settled && kind == wire::Kind::refusal)
+        throw Refusal(wire::decode_refusal(view));
+      if (!settled && kind == wire::Kind::farewell)
+        throw Refusal("who came has said farewell before it stated its terms");
+    } catch (const Refusal& why) {
+      if (settled)
+        throw;
+      greeted.erase(from);
+      begin_anew(why.what());
+      turn_away(from, why.what());
+      return false;
+    }
+    greeted.erase(from);
+    return true;
   }
 
   [[noreturn]] void lost() const {
@@ -268,11 +360,12 @@ struct Channel::State {
     if (connection >= 0)
       throw Refusal(std::string(other()) + " did not come to '" + address +
                     "', which is for one of its ranks, within " + seconds +
-                    " s: see what it printed, or let all rows travel over rank 0 (fix fluid/couple ... lanes no)");
+                    " s: see what it printed, or let all rows travel over rank 0 (fix fluid/couple ... lanes no)" +
+                    (note.empty() ? "" : " (who came last: " + note + ")"));
     throw Refusal(std::string(other()) + " did not come to '" + address + "' within " + seconds + " s: start " +
                   (side == Side::dem ? "annulusFoam with link socket and this address"
                                      : "the DEM script with fix fluid/couple link socket and this address") +
-                  ", or give a longer wait");
+                  ", or give a longer wait" + (note.empty() ? "" : " (who came last: " + note + ")"));
   }
 };
 
@@ -299,8 +392,15 @@ Channel::Message Channel::receive(const std::function<void()>& look) {
   s.read_monitor();
   for (;;) {
     if (s.take(message.parts_->zmq)) {
-      if (wire::kind_of(message.view()) == wire::Kind::refusal)
-        throw Refusal(wire::decode_refusal(message.view()));
+      try {
+        if (wire::kind_of(message.view()) == wire::Kind::refusal)
+          throw Refusal(wire::decode_refusal(message.view()));
+      } catch (const Refusal& why) {
+        if (s.settled)
+          throw;
+        dismiss(why.what());
+        continue;
+      }
       s.bytes += message.view().size;
       return message;
     }
@@ -309,7 +409,7 @@ Channel::Message Channel::receive(const std::function<void()>& look) {
     if (s.gone)
       s.lost();
     long wait = -1;
-    if (!s.came) {
+    if (!s.is_awaited()) {
       const std::chrono::duration<double> since = Clock::now() - s.opened;
       if (since.count() >= s.patience.arrival)
         s.missing();
@@ -327,6 +427,33 @@ Channel::Message Channel::receive(const std::function<void()>& look) {
   }
 }
 
+void Channel::settle() noexcept {
+  state_->settled = true;
+}
+
+void Channel::dismiss(const std::string& why) {
+  State& s = *state_;
+  if (s.settled)
+    throw Refusal(why);
+  s.turn_away(s.peer_name, why);
+  s.forget(why);
+}
+
+std::string Channel::last_words(double seconds) {
+  State& s = *state_;
+  const Clock::time_point begun = Clock::now();
+  for (zmq::message_t message;;) {
+    while (s.take(message)) {
+      const wire::View view{static_cast<const std::byte*>(message.data()), message.size()};
+      if (wire::kind_of(view) == wire::Kind::refusal)
+        return wire::decode_refusal(view);
+    }
+    if (std::chrono::duration<double>(Clock::now() - begun).count() >= seconds)
+      return "";
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
 std::uint32_t Channel::port() const {
   const std::string bound = state_->socket.get(zmq::sockopt::last_endpoint);
   return static_cast<std::uint32_t>(std::strtoul(bound.c_str() + bound.rfind(':') + 1, nullptr, 10));
@@ -338,8 +465,11 @@ std::uint64_t Channel::bytes() const {
 
 void Channel::refuse(const std::string& sentence) noexcept {
   try {
-    if (state_->socket && !state_->gone)
+    if (state_->socket && !state_->gone) {
+      if (state_->side == Side::dem)
+        state_->await_handshake();
       send(Message(wire::encode_refusal(sentence)));
+    }
   } catch (...) {
     // The other side has gone already; this side's own sentence is what counts.
   }
@@ -350,7 +480,7 @@ void Channel::close() noexcept {
   if (!state_->socket)
     return;
   // Nothing is left to be delivered to who is not there: a peer that is stopped would only keep this side waiting.
-  if (!state_->came || state_->gone)
+  if ((state_->side == Side::dem && !state_->came) || state_->gone)
     state_->socket.set(zmq::sockopt::linger, 0);
   state_->monitor.close();
   state_->socket.close();

@@ -43,8 +43,17 @@ class Channel {
   /// Throws Refusal if the other side is gone.
   void send(Message message);
   /// The next message. Waits as long as the other side lives; throws Refusal if it does not come, goes, or refuses.
-  /// While it waits it calls `look` several times a second, which may throw to end the wait.
+  /// While it waits it calls `look` several times a second, which may throw to end the wait. The fluid side
+  /// where strangers can connect (TCP without keys), until settle(): whoever goes, refuses or speaks nonsense is
+  /// forgotten, and the wait for the other side goes on.
   Message receive(const std::function<void()>& look = {});
+  /// The fluid side: the one that was heard is the other side.
+  void settle() noexcept;
+  /// The fluid side, before settle(): the one that was heard is not the other side, and is told why. Throws Refusal
+  /// with these words where no stranger can connect.
+  void dismiss(const std::string& why);
+  /// The sentence of a refusal that has come, or comes within this time; empty if none does.
+  std::string last_words(double seconds);
   /// Tells the other side why this one goes no further, and closes.
   void refuse(const std::string& sentence) noexcept;
   /// Sends what is left and closes.

@@ -14,6 +14,8 @@
 namespace eccentra::link {
 namespace {
 
+/// Time in which the arguments of a rank that ended all others arrive [s].
+constexpr double kLastWordsWithin = 0.2;
 constexpr std::size_t kAnswerHead = wire::kHeaderBytes + wire::kSamplesBytes;
 
 /// Who does not take its answer any more is noticed when its next message is due.
@@ -48,35 +50,89 @@ FluidServer::FluidServer(MPI_Comm ranks, const Address& address, const Timeout& 
 
 FluidServer::~FluidServer() = default;
 
+DemTerms FluidServer::first_terms() {
+  for (;;) {
+    message_ = channel_->receive();
+    try {
+      if (wire::kind_of(message_.view()) != wire::Kind::dem_terms)
+        throw Refusal("the DEM side spoke out of turn: install the same release of Eccentra on both sides");
+      return wire::decode_dem_terms(message_.view());
+    } catch (const Refusal& why) {
+      // A stranger does not end the wait for the DEM side.
+      channel_->dismiss(why.what());
+    }
+  }
+}
+
+wire::Bytes FluidServer::receive_command() {
+  Command command;
+  if (!agreed_) {
+    command.kind = wire::Kind::dem_terms;
+    command.terms = first_terms();
+  } else {
+    message_ = channel_->receive();
+    command.kind = wire::kind_of(message_.view());
+    decode_command(command);
+  }
+  wire::Bytes packed(sizeof command);
+  std::memcpy(packed.data(), &command, sizeof command);
+  return packed;
+}
+
+void FluidServer::decode_command(Command& command) {
+  switch (command.kind) {
+  case wire::Kind::dem_terms:
+    command.terms = wire::decode_dem_terms(message_.view());
+    return;
+  case wire::Kind::walls:
+    walls_ = wire::decode_walls(message_.view());
+    return;
+  case wire::Kind::checkpoint:
+    command.mark = wire::decode_checkpoint(message_.view());
+    return;
+  case wire::Kind::run_ended:
+  case wire::Kind::farewell:
+    return;
+  case wire::Kind::advance:
+    if (overlap_)
+      return;
+    break;
+  case wire::Kind::coupling_step: {
+    const wire::Rows rows = wire::decode_coupling_step(message_.view(), extents_, command.coupling_step);
+    wire::check_cell_hints(rows, extents_, cells_of_rank_);
+    if (command.coupling_step.needed & ~offered_)
+      throw Refusal(
+          "the DEM side asks for fluid quantities that this solver does not offer: drop the effect that needs "
+          "them from fix fluid/force");
+    if (command.coupling_step.number != ++coupling_steps_)
+      throw Refusal("the DEM side left out a coupling step: install the same release of Eccentra on both sides");
+    command.count = rows.count;
+    command.coupling_step.pack_seconds += transport_seconds_;
+    return;
+  }
+  default:
+    break;
+  }
+  throw Refusal("the DEM side spoke out of turn: install the same release of Eccentra on both sides");
+}
+
 FluidServer::Command FluidServer::next_command() {
   static_assert(std::is_trivially_copyable_v<Command>, "ranks pass it on as bytes");
-  const wire::Bytes bytes = on_root(ranks_, [&] {
-    message_ = channel_->receive();
-    Command command;
-    command.kind = wire::kind_of(message_.view());
-    if (command.kind == wire::Kind::dem_terms) {
-      command.terms = wire::decode_dem_terms(message_.view());
-    } else if (command.kind == wire::Kind::coupling_step && agreed_) {
-      const wire::Rows rows = wire::decode_coupling_step(message_.view(), extents_, command.coupling_step);
-      wire::check_cell_hints(rows, extents_, cells_of_rank_);
-      if (command.coupling_step.needed & ~offered_)
-        throw Refusal(
-            "the DEM side asks for fluid quantities that this solver does not offer: drop the effect that needs "
-            "them from fix fluid/force");
-      if (command.coupling_step.number != ++coupling_steps_)
-        throw Refusal("the DEM side left out a meeting: install the same release of Eccentra on both sides");
-      command.count = rows.count;
-      command.coupling_step.pack_seconds += transport_seconds_;
-    } else if (command.kind == wire::Kind::checkpoint && agreed_) {
-      command.mark = wire::decode_checkpoint(message_.view());
-    } else if (command.kind != wire::Kind::run_ended && command.kind != wire::Kind::farewell &&
-               !(command.kind == wire::Kind::advance && agreed_ && overlap_)) {
-      throw Refusal("the DEM side spoke out of turn: install the same release of Eccentra on both sides");
-    }
-    wire::Bytes packed(sizeof command);
-    std::memcpy(packed.data(), &command, sizeof command);
-    return packed;
-  });
+  wire::Bytes bytes;
+  try {
+    bytes = on_root(ranks_, [&] { return receive_command(); });
+  } catch (const Refusal& refusal) {
+    // A rank of DEM that ended all others may have said why on its own connection.
+    const std::string why = refusal.what();
+    if (by_rank_connections_)
+      on_all(ranks_, [&](const Look&) {
+        for (RankConnection& connection : rank_connections_)
+          if (const std::string arguments = connection.channel->last_words(kLastWordsWithin); !arguments.empty())
+            throw Refusal(arguments);
+        return 0;
+      });
+    throw Refusal(why);
+  }
   Command command;
   std::memcpy(&command, bytes.data(), sizeof command);
   return command;
@@ -90,6 +146,7 @@ void FluidServer::answer_terms(FluidPeer& fluid, const Command& command) {
   extents_ = command.terms.extents;
   overlap_ = command.terms.overlap;
   on_root(ranks_, [&] {
+    channel_->settle();
     channel_->send(Channel::Message(wire::encode(terms)));
     return wire::Bytes();
   });
@@ -149,10 +206,12 @@ std::vector<wire::Rows> FluidServer::dealt_rows(const Command& command) {
   return {{static_cast<std::size_t>(mine), channel_ ? all : rows_.data()}};
 }
 
-Channel::Message FluidServer::answer(const Command& command, std::size_t count, int signal) {
+Channel::Message FluidServer::answer(const Command& command, std::size_t count, int signal, const std::string& news) {
   const unsigned asked = command.coupling_step.needed;
-  Channel::Message message(kAnswerHead + count * wire::samples_row_bytes(asked));
-  wire::write_samples_head(message.data(), command.coupling_step.number, count, asked, signal);
+  const std::size_t rows = count * wire::samples_row_bytes(asked);
+  Channel::Message message(kAnswerHead + rows + news.size());
+  wire::write_samples_head(message.data(), command.coupling_step.number, count, asked, signal, news.size());
+  std::memcpy(message.data() + kAnswerHead + rows, news.data(), news.size());
   return message;
 }
 
@@ -162,10 +221,12 @@ void FluidServer::answer_coupling_step(FluidPeer& fluid, const Command& command)
   particlePoints_.load(parts, extents_, command.coupling_step.needed);
   const double ready = MPI_Wtime();
 
-  const int signal = fluid.meet(command.coupling_step, particlePoints_.particles(), particlePoints_.samples());
+  StepAnswer said = fluid.couple(command.coupling_step, particlePoints_.particles(), particlePoints_.samples());
+  said.news.resize(std::min(said.news.size(), wire::kMostText));
+  const int signal = said.stop_signal;
 
   const double met = MPI_Wtime();
-  Channel::Message of_root = channel_ ? answer(command, command.count, signal) : Channel::Message();
+  Channel::Message of_root = channel_ ? answer(command, command.count, signal, said.news) : Channel::Message();
   std::byte* const to = channel_ ? of_root.data() + kAnswerHead : rows_.data();
   auto part = parts.begin();
   std::size_t first = 0;
@@ -196,6 +257,15 @@ void FluidServer::answer_checkpoint(FluidPeer& fluid, const Command& command) {
   });
 }
 
+void FluidServer::answer_walls(FluidPeer& fluid) {
+  const std::string news = fluid.compare_walls(walls_);
+  walls_ = {};
+  on_root(ranks_, [&] {
+    channel_->send(Channel::Message(wire::encode_walls_compared(news)));
+    return wire::Bytes();
+  });
+}
+
 void FluidServer::refuse(const std::string& sentence) noexcept {
   if (channel_)
     channel_->refuse(sentence);
@@ -210,6 +280,8 @@ void FluidServer::serve(FluidPeer& fluid) {
         return;
       if (command.kind == wire::Kind::dem_terms)
         answer_terms(fluid, command);
+      else if (command.kind == wire::Kind::walls)
+        answer_walls(fluid);
       else if (command.kind == wire::Kind::coupling_step)
         answer_coupling_step(fluid, command);
       else if (command.kind == wire::Kind::checkpoint)

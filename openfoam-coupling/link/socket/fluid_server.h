@@ -34,9 +34,15 @@ class FluidServer {
  private:
   struct Command;
   Command next_command();
+  // Of rank 0.
+  DemTerms first_terms();
+  wire::Bytes receive_command();
+  void decode_command(Command& command);
+
   void answer_terms(FluidPeer& fluid, const Command& command);
   void answer_coupling_step(FluidPeer& fluid, const Command& command);
   void answer_checkpoint(FluidPeer& fluid, const Command& command);
+  void answer_walls(FluidPeer& fluid);
   /// Once, when the first terms have been answered.
   void open_rank_connections(std::uint32_t count);
   /// This rank's particles: on rank 0 those of DEM's rank 0, and of each rank connection.
@@ -44,7 +50,7 @@ class FluidServer {
   /// This rank's particles: its share of all that have come to rank 0.
   std::vector<wire::Rows> dealt_rows(const Command& command);
   /// Room for `count` samples behind a head.
-  static Channel::Message answer(const Command& command, std::size_t count, int signal);
+  static Channel::Message answer(const Command& command, std::size_t count, int signal, const std::string& news = "");
   void refuse(const std::string& sentence) noexcept;
 
   MPI_Comm ranks_;
@@ -56,6 +62,7 @@ class FluidServer {
   std::uint32_t rank_connections_asked_ = 0;
   std::int64_t coupling_steps_ = 0;
   Channel::Message message_; ///< of rank 0: the present one
+  WallDescription walls_;    ///< of rank 0, until they are compared
   std::vector<std::int32_t> cells_of_rank_;
   bool agreed_ = false;
   unsigned offered_ = 0; ///< quantities that the fluid's terms offered

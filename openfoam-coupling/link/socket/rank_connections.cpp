@@ -71,9 +71,17 @@ std::vector<std::uint32_t> RankConnections::bind(MPI_Comm ranks, const Address& 
 void RankConnections::greet(MPI_Comm ranks, bool extents) {
   on_all(ranks, [&](const Look& look) {
     for (RankConnection& connection : rank_connections_) {
-      connection.message = connection.channel->receive(look);
-      if (wire::decode_rows(connection.message.view(), extents, {connection.rank, 0}).count != 0)
-        throw Refusal("the DEM side spoke out of turn: install the same release of Eccentra on both sides");
+      for (bool is_the_rank = false; !is_the_rank;) {
+        connection.message = connection.channel->receive(look);
+        try {
+          if (wire::decode_rows(connection.message.view(), extents, {connection.rank, 0}).count != 0)
+            throw Refusal("the DEM side spoke out of turn: install the same release of Eccentra on both sides");
+          is_the_rank = true;
+        } catch (const Refusal& why) {
+          connection.channel->dismiss(why.what());
+        }
+      }
+      connection.channel->settle();
     }
     return 0;
   });

@@ -8,6 +8,10 @@
 #include <algorithm>
 
 namespace eccentra::link {
+namespace {
+/// One number tells all ranks the stop signal and the length of the news.
+constexpr long long kNewsFrom = 256;
+} // namespace
 
 SocketPeer::SocketPeer(MPI_Comm ranks, const Address& address, const Timeout& patience, Rows rows)
     : ranks_(ranks), address_(address), timeout_(patience) {
@@ -100,8 +104,8 @@ void SocketPeer::open_rank_connections(std::uint32_t count) {
     why_over_root_ = wire::decode_no_rank_connections(message);
 }
 
-int SocketPeer::meet(const CouplingStep& coupling_step, const ParticleArrays& particles,
-                     const link::FluidSamples& samples) {
+StepAnswer SocketPeer::couple(const CouplingStep& coupling_step, const ParticleArrays& particles,
+                              const link::FluidSamples& samples) {
   const double begun = MPI_Wtime();
   const std::size_t row_bytes = wire::particle_row_bytes(extents_);
   const std::size_t answer_bytes = wire::samples_row_bytes(coupling_step.needed);
@@ -130,9 +134,10 @@ int SocketPeer::meet(const CouplingStep& coupling_step, const ParticleArrays& pa
     gather_rows(ranks_, mine, static_cast<int>(particles.count), row_bytes, shares, mine);
   double answered = begun, asked = begun;
   wire::Rows answer;
+  StepAnswer all;
   const auto exchange = [&](const Look& look) {
     if (!way)
-      return 0;
+      return 0LL;
     if (channel_)
       wire::write_coupling_step_head(message.data(), applied, count, extents_);
     else
@@ -142,16 +147,31 @@ int SocketPeer::meet(const CouplingStep& coupling_step, const ParticleArrays& pa
     way->send(std::move(message));
     message = way->receive(look);
     answered = MPI_Wtime();
-    answer = wire::decode_samples(message.view(), applied.number, count, coupling_step.needed);
-    return answer.stop_signal;
+    answer = wire::decode_samples(message.view(), applied.number, count, coupling_step.needed, &all.news);
+    return answer.stop_signal + kNewsFrom * static_cast<long long>(all.news.size());
   };
-  const std::vector<long long> signals = or_leave([&] { return on_all(ranks_, exchange); });
+  const std::vector<long long> answers = or_leave([&] { return on_all(ranks_, exchange); });
   if (!by_rank_connections_)
     scatter_rows(ranks_, answer.data, shares, answer_bytes, rows_.data(), static_cast<int>(particles.count));
   wire::unpack_samples({particles.count, way ? answer.data : rows_.data()}, coupling_step.needed, samples,
                        particles.cell_hint);
   transport_seconds_ = MPI_Wtime() - begun - (answered - asked);
-  return static_cast<int>(signals.front());
+  all.stop_signal = static_cast<int>(answers.front() % kNewsFrom);
+  all.news.resize(answers.front() / kNewsFrom);
+  if (!all.news.empty())
+    MPI_Bcast(all.news.data(), static_cast<int>(all.news.size()), MPI_CHAR, 0, ranks_);
+  return all;
+}
+
+std::string SocketPeer::compare_walls(const WallDescription& walls) {
+  const wire::Bytes news = on_root_or_leave([&] {
+    channel_->send(Channel::Message(wire::encode(walls)));
+    const Channel::Message message = channel_->receive();
+    const std::string text = wire::decode_walls_compared(message.view());
+    const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+    return wire::Bytes(bytes, bytes + text.size());
+  });
+  return {reinterpret_cast<const char*>(news.data()), news.size()};
 }
 
 void SocketPeer::advance() {

@@ -29,8 +29,9 @@ class SocketPeer : public FluidPeer {
   ~SocketPeer() override;
 
   FluidTerms agree(const DemTerms& dem) override;
-  int meet(const CouplingStep& coupling_step, const ParticleArrays& particles,
-           const link::FluidSamples& samples) override;
+  std::string compare_walls(const WallDescription& walls) override;
+  StepAnswer couple(const CouplingStep& coupling_step, const ParticleArrays& particles,
+                    const link::FluidSamples& samples) override;
   void advance() override;
   std::string checkpoint(const CheckpointMark& mark) override;
   void run_ended() override;

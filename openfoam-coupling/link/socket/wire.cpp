@@ -103,6 +103,15 @@ std::size_t checked_count(Reader& in) {
   return count;
 }
 
+/// What is printed on a terminal must not command it. `lines`: of several lines.
+std::string printable(const char* from, std::size_t length, bool lines) {
+  std::string text(from, length);
+  for (char& c : text)
+    if (!(lines && c == '\n') && (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~'))
+      c = '?';
+  return text;
+}
+
 /// The rows of particles that are left in the message.
 Rows particle_rows(const Reader& in, std::size_t count, bool extents) {
   const std::size_t row_bytes = particle_row_bytes(extents);
@@ -205,16 +214,11 @@ Bytes encode_text(Kind kind, const std::string& text) {
   return message;
 }
 
-std::string decode_text(View message, Kind kind) {
+std::string decode_text(View message, Kind kind, bool lines = false) {
   const Reader in = body_of(message, kind);
   if (in.left() > kMostText)
     broken("is longer than a sentence");
-  std::string text(reinterpret_cast<const char*>(in.here()), in.left());
-  // What is printed on a terminal must not command it.
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~')
-      c = '?';
-  return text;
+  return printable(reinterpret_cast<const char*>(in.here()), in.left(), lines);
 }
 
 } // namespace
@@ -241,6 +245,31 @@ Bytes encode_no_rank_connections(const std::string& why) {
 
 std::string decode_no_rank_connections(View message) {
   return decode_text(message, Kind::no_rank_connections);
+}
+
+Bytes encode_walls_compared(const std::string& news) {
+  return encode_text(Kind::walls_compared, news);
+}
+
+std::string decode_walls_compared(View message) {
+  return decode_text(message, Kind::walls_compared, true);
+}
+
+Bytes encode(const WallDescription& walls) {
+  Sizer sizer;
+  walls_fields(sizer, walls);
+  Bytes message = with_header(Kind::walls, sizer.bytes());
+  Writer out(message.data() + kHeaderBytes);
+  walls_fields(out, walls);
+  return message;
+}
+
+WallDescription decode_walls(View message) {
+  Reader in = body_of(message, Kind::walls);
+  WallDescription walls;
+  walls_fields(in, walls);
+  in.end();
+  return walls;
 }
 
 Bytes encode_rank_connections(const std::vector<std::uint32_t>& numbers) {
@@ -273,7 +302,7 @@ bool is_ours(View message) {
 Kind kind_of(View message) {
   Reader in(message);
   const Kind kind = read_header(in).kind;
-  if (kind == Kind::run_ended || kind == Kind::farewell || kind == Kind::advance)
+  if (kind == Kind::run_ended || kind == Kind::farewell || kind == Kind::advance || kind == Kind::hello)
     in.end();
   return kind;
 }
@@ -316,13 +345,13 @@ Rows decode_rows(View message, bool extents, const RowsMark& mark) {
   if (in.take<std::uint32_t>() != mark.connection)
     broken("comes from another rank than its lane");
   if (in.take<std::int64_t>() != mark.coupling_step)
-    broken("belongs to another meeting");
+    broken("belongs to another coupling step");
   return particle_rows(in, count, extents);
 }
 
 void write_samples_head(std::byte* message, std::int64_t coupling_step, std::size_t count, unsigned quantities,
-                        int stop_signal) {
-  write_header(message, Kind::samples, kSamplesBytes + count * samples_row_bytes(quantities));
+                        int stop_signal, std::size_t news) {
+  write_header(message, Kind::samples, kSamplesBytes + count * samples_row_bytes(quantities) + news);
   Writer out(message + kHeaderBytes);
   out.plain(std::uint64_t(count));
   out.quantities(quantities);
@@ -330,7 +359,8 @@ void write_samples_head(std::byte* message, std::int64_t coupling_step, std::siz
   out.plain(coupling_step);
 }
 
-Rows decode_samples(View message, std::int64_t coupling_step, std::size_t count, unsigned quantities) {
+Rows decode_samples(View message, std::int64_t coupling_step, std::size_t count, unsigned quantities,
+                    std::string* news) {
   Reader in = body_of(message, Kind::samples);
   Rows rows;
   rows.count = checked_count(in);
@@ -343,9 +373,12 @@ Rows decode_samples(View message, std::int64_t coupling_step, std::size_t count,
   if (in.take<std::int64_t>() != coupling_step || rows.count != count || sent != quantities)
     broken("answers another question than was asked");
   const std::size_t row_bytes = samples_row_bytes(quantities);
-  if (in.left() != rows.count * row_bytes)
+  if (in.left() < rows.count * row_bytes || in.left() > rows.count * row_bytes + kMostText)
     broken("does not hold the samples that it states");
   rows.data = in.here();
+  if (news)
+    *news = printable(reinterpret_cast<const char*>(rows.data + rows.count * row_bytes),
+                      in.left() - rows.count * row_bytes, true);
   for (std::size_t i = 0; i < rows.count; ++i)
     check_finite(rows.data + i * row_bytes, (row_bytes - sizeof(CellHint)) / sizeof(double), i, "samples row");
   return rows;

@@ -26,9 +26,12 @@ enum class Kind : std::uint32_t {
   advance = 10,             ///< DEM to fluid, with overlap: DEM begins an interval, and so shall the fluid
   rank_connections = 11,    ///< fluid to DEM, after the terms: where the rank connections are that those asked for
   no_rank_connections = 12, ///< fluid to DEM instead: why there are none, in one sentence; all rows travel over rank 0
-  rows = 13 ///< DEM to fluid, on a rank connection: the particles of one rank, whose coupling step comes from rank 0
+  rows = 13,  ///< DEM to fluid, on a rank connection: the particles of one rank, whose coupling step comes from rank 0
+  hello = 14, ///< DEM to fluid, first on every connection: who comes speaks this protocol
+  walls = 15, ///< DEM to fluid, after the terms: WallDescription
+  walls_compared = 16 ///< fluid to DEM: they are those of the mesh, and what the user should know
 };
-constexpr Kind kLastKind = Kind::rows;
+constexpr Kind kLastKind = Kind::walls_compared;
 
 /// Bytes before the body of every message.
 constexpr std::size_t kHeaderBytes = 32;
@@ -44,6 +47,8 @@ constexpr std::uint32_t kMaxRankConnections = 65535;
 constexpr std::uint64_t kMostParticles = 10'000'000;
 /// Longest sentence of a refusal.
 constexpr std::size_t kMostText = 2048;
+/// Walls of a script, the bytes of a wall's name, and the triangles of all meshes.
+constexpr std::uint64_t kMostWalls = 10'000, kMostName = 256, kMostTriangles = 5'000'000;
 
 /// Bytes of one particle to the fluid: position, volume, impulse, drag coefficient, [extent,] cell hint.
 std::size_t particle_row_bytes(bool extents);
@@ -66,9 +71,11 @@ Bytes encode(const FluidTerms& terms);
 Bytes encode_refusal(const std::string& sentence);
 Bytes encode(const CheckpointMark& mark);
 Bytes encode_checkpointed(const std::string& place);
-Bytes encode_bare(Kind kind); ///< run_ended, farewell or advance
+Bytes encode_bare(Kind kind); ///< run_ended, farewell, advance or hello
 Bytes encode_rank_connections(const std::vector<std::uint32_t>& numbers);
 Bytes encode_no_rank_connections(const std::string& why);
+Bytes encode(const WallDescription& walls);
+Bytes encode_walls_compared(const std::string& news);
 /// `message` has room for kHeaderBytes + kCouplingStepBytes; `count` rows follow them.
 void write_coupling_step_head(std::byte* message, const CouplingStep& coupling_step, std::size_t count, bool extents);
 /// Says whose rows of which coupling step these are.
@@ -79,9 +86,9 @@ struct RowsMark {
 /// `message` has room for kHeaderBytes + kRowsBytes; `count` rows follow them.
 void write_rows_head(std::byte* message, const RowsMark& mark, std::size_t count, bool extents);
 /// `message` has room for kHeaderBytes + kSamplesBytes; `count` rows follow them. `stop_signal`: the one that asks the
-/// fluid side to stop, or 0.
+/// fluid side to stop, or 0. `news` bytes of text follow the rows.
 void write_samples_head(std::byte* message, std::int64_t coupling_step, std::size_t count, unsigned quantities,
-                        int stop_signal = 0);
+                        int stop_signal = 0, std::size_t news = 0);
 
 /// Rows of a message, still in it.
 struct Rows {
@@ -104,13 +111,17 @@ std::string decode_checkpointed(View message);
 /// `asked`: the number of rank connections that the terms asked for.
 std::vector<std::uint32_t> decode_rank_connections(View message, std::size_t asked);
 std::string decode_no_rank_connections(View message);
+WallDescription decode_walls(View message);
+std::string decode_walls_compared(View message);
 /// `extents` as the DEM side's terms said. Volumes are positive. With rank connections the rows are some of the
 /// particles.
 Rows decode_coupling_step(View message, bool extents, CouplingStep& coupling_step);
 /// `mark` as it must be.
 Rows decode_rows(View message, bool extents, const RowsMark& mark);
 /// `coupling step`, `count` and `quantities` as the coupling step asked for.
-Rows decode_samples(View message, std::int64_t coupling_step, std::size_t count, unsigned quantities);
+/// `news`, if not null, becomes the text behind the rows.
+Rows decode_samples(View message, std::int64_t coupling_step, std::size_t count, unsigned quantities,
+                    std::string* news = nullptr);
 /// Throws Refusal unless each cell hint is blank or names a rank that is there and one of its cells.
 void check_cell_hints(Rows rows, bool extents, const std::vector<std::int32_t>& cells_of_rank);
 

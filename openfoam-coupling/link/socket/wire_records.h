@@ -5,6 +5,8 @@
 
 #include "link/socket/wire_values.h"
 
+#include <type_traits>
+
 namespace eccentra::link::wire {
 
 // `Way` is Writer, Reader or Sizer; `Record` is const where it is only read.
@@ -96,6 +98,69 @@ template <class Way, class Record> constexpr void coupling_step_fields(Way& way,
   way.plain(coupling_step.number);
   totals_fields(way, coupling_step.totals);
   load_fields(way, coupling_step.load);
+}
+
+// Lists and names carry their number first.
+
+template <class Way, class List> constexpr void list_size(Way& way, List& list, std::uint64_t most, std::size_t least) {
+  std::uint64_t count = list.size();
+  way.plain(count);
+  if constexpr (std::is_same_v<Way, Reader>) {
+    if (count > most || count * least > way.left())
+      broken("does not hold what it states");
+    list.resize(count);
+  }
+}
+
+template <class Way, class Text> constexpr void name_field(Way& way, Text& name) {
+  list_size(way, name, kMostName, 1);
+  for (auto& letter : name)
+    way.plain(letter);
+}
+
+template <class Way, class Record> constexpr void primitive_fields(Way& way, Record& wall) {
+  name_field(way, wall.id);
+  name_field(way, wall.name);
+  auto form = static_cast<std::uint32_t>(wall.form);
+  way.plain(form);
+  if constexpr (std::is_same_v<Way, Reader>) {
+    if (form > 1)
+      broken("holds a wall of an unknown form");
+    wall.form = static_cast<PrimitiveWall::Form>(form);
+  }
+  numbers(way, wall.point);
+  numbers(way, wall.direction);
+  way.number(wall.radius);
+  numbers(way, wall.velocity);
+  numbers(way, wall.angular_velocity);
+}
+
+template <class Way, class List> constexpr void triangles(Way& way, List& list) {
+  constexpr std::size_t kTriangleBytes = 9 * sizeof(double);
+  list_size(way, list, kMostTriangles, kTriangleBytes);
+  for (auto& triangle : list)
+    for (auto& corner : triangle)
+      numbers(way, corner);
+}
+
+/// Not of a fixed length.
+template <class Way, class Record> constexpr void walls_fields(Way& way, Record& walls) {
+  constexpr std::size_t kPrimitive = 2 * sizeof(std::uint64_t) + sizeof(std::uint32_t) + 13 * sizeof(double);
+  constexpr std::size_t kMesh = 4 * sizeof(std::uint64_t) + 2 * sizeof(std::uint32_t);
+  list_size(way, walls.primitives, kMostWalls, kPrimitive);
+  for (auto& wall : walls.primitives)
+    primitive_fields(way, wall);
+  list_size(way, walls.meshes, kMostWalls, kMesh);
+  for (auto& mesh : walls.meshes) {
+    name_field(way, mesh.id);
+    name_field(way, mesh.name);
+    way.yes_or_no(mesh.moves);
+    way.yes_or_no(mesh.velocity_known);
+    triangles(way, mesh.corners);
+    triangles(way, mesh.velocities);
+    if (!mesh.velocities.empty() && mesh.velocities.size() != mesh.corners.size())
+      broken("holds a wall mesh whose velocities are not those of its triangles");
+  }
 }
 
 /// Bytes of a record, given its description: kBytes<DemTerms>(dem_terms_fields<Sizer, DemTerms>).

@@ -14,7 +14,7 @@ ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": 
                "OMPI_MCA_rmaps_base_oversubscribe": "1", "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe"}
 CRASHES = ("Segmentation fault", "terminate called", "Sanitizer", "runtime error:", "Signal code:", "Floating point exception")
 # As tests/interface/bad_input_test.cpp reads them.
-SAID = re.compile(r"^(\[\d+\] )?((ERROR( on proc \d+)?|[A-Za-z-]+: error): |clusterShape: |annulusFoam: the DEM script ended)")
+SAID = re.compile(r"^(\[\d+\] )?((ERROR( on proc \d+)?|[A-Za-z-]+: error): )")
 
 
 LOOK = 0.5  # seconds between looks at a process

@@ -10,7 +10,7 @@ from harness.scenes import box, held_drag, material, spheres_at
 
 GROUP = Group("drag_map", "4. Drag: map over Stokes number and coupling interval", """
 A uniform suspension (40 % solid, a sphere in each cell) sinks or rises in its fluid, and a gradient carries the submerged weight, so that nothing but drag acts between
-the two and the slip becomes the terminal velocity in the suspension. St is the interval between two meetings over the response time m u/F, r the ratio of inertia of particles and fluid.
+the two and the slip becomes the terminal velocity in the suspension. St is the interval between two coupling steps over the response time m u/F, r the ratio of inertia of particles and fluid.
 An interval multiplies a deviation of the slip by 1 - St if its first drag is held, as explicit couplings do (here fix store/state, particles alone): lost above St = 2. With the drag of every
 DEM step but explicit momentum in the fluid it is E - r (1 - E), E = (1 + St/N)^-N: lost where 1 - E > 2/(1 + r), which is never for r < 1. Semi-implicit momentum must be stable everywhere: after a kick of half the
 slip in the fluid the slip never reverses, and comes back. Gravity is so weak that a sphere sinks by 1e-9 cells in an interval: the factors are exact.""",
@@ -48,7 +48,7 @@ run {every * (map_settles(stokes[which], scheme, every) * (2 if scheme == "semiI
 
 GROUP.case(
     "{kind[0]}_N{every}",
-    "suspension of {size_mm:g} mm, density ratio {kind[2]}, {kind[3]:g} Pa s, meetings every {every} DEM steps, intervals of 0.1 to 100 response times",
+    "suspension of {size_mm:g} mm, density ratio {kind[2]}, {kind[3]:g} Pa s, coupling steps every {every} DEM steps, intervals of 0.1 to 100 response times",
     scene=suspension,
     quick=lambda every, kind: kind[0] == 'cutting' and every == 10,
     seconds=8,
@@ -72,5 +72,5 @@ GROUP.case(
     ],
     fails=[
         Fails("explicit momentum in the fluid", set={"scheme": "explicit"}),
-        Fails("drag of the meeting, held over the interval", set={"scheme": "held"}, twin="fails_held"),
+        Fails("drag of the coupling step, held over the interval", set={"scheme": "held"}, twin="fails_held"),
     ])

@@ -86,6 +86,6 @@ GROUP.case(
               tau0: 0.1 * 2 * pi * step * 1.01 + 1e-12 if ANSLEY_SMITH * tau0 * 30 * pi / 8 * d ** 2 > 0.1 * 2 * pi * sphere_mass(d, 1000) else 0.1),
     ],
     fails=[
-        # there it cancels between the half kicks of velocity Verlet
+        # there it cancels between the half steps of velocity Verlet
         Fails("explicit yield force chatters by (F0/m) dt", set={"implicit": False}, when=lambda tau0: tau0 < 20),
     ])

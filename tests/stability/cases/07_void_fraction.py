@@ -154,7 +154,7 @@ GROUP.case(
         Fails("volume and force in the cell of the centre alone", set={"method": "centre"}, when=lambda cells: cells < 1,
               says="ended with status -8|has blown up"),
         # there the cells of the centres happen to share alike
-        Fails("explicit momentum in the fluid, met every 20 ms", set={"extra": "momentum explicit;", "fluid_step": 0.02},
+        Fails("explicit momentum in the fluid, coupled every 20 ms", set={"extra": "momentum explicit;", "fluid_step": 0.02},
               when=lambda cells: cells > 1, says="the fluid fraction of a closed or periodic section changed|has blown up|ended with status -8"),
     ])
 
@@ -281,7 +281,7 @@ run {round(fluid_step / 5e-5) * 20}
 
 GROUP.case(
     "pushed_bed_mu{viscosity}_dt{fluid_step}",
-    "bed of 74 % solid on a held layer, pushed up by 1 cm/s, cells of d, {viscosity} Pa s, met every {fluid_step} s: comes to rest",
+    "bed of 74 % solid on a held layer, pushed up by 1 cm/s, cells of d, {viscosity} Pa s, coupled every {fluid_step} s: comes to rest",
     scene=pushed_bed,
     seconds=20,
     vary={"viscosity": [1e-3, 0.1, 10.0], "fluid_step": [2e-3, 0.01]},

@@ -17,7 +17,7 @@ def response_time(diameter, density, viscosity):
 
 def held_limit(steps):
     """Largest stable St of a drag that is held over an interval of `steps` velocity-Verlet steps: v' = v - St ((1 - 1/2N) v + 1/2N
-    v_before), as the half kick before a meeting still has the force of the interval before. 2 for 1 and for many steps."""
+    v_before), as the half step before a coupling step still has the force of the interval before. 2 for 1 and for many steps."""
     return 2 * steps if steps <= 2 else 2 / (1 - 1 / steps)
 
 
@@ -49,9 +49,9 @@ def map_terminal(kind, stokes, cell):
 
 
 def map_settles(stokes, scheme, every):
-    """Meetings before the kick, and after it. Semi-implicit momentum may return what it holds back long after (docs/couplingProperties.md);
+    """Coupling steps before the kick, and after it. Semi-implicit momentum may return what it holds back long after (docs/couplingProperties.md);
     the slip in the flow that the particles feel does not wait for that, but with one DEM step per interval: there half of each kick is
-    still that of the interval before, and what this starts dies away over some 300 meetings. What is explicit shows at once what becomes of it."""
+    still that of the interval before, and what this starts dies away over some 300 coupling steps. What is explicit shows at once what becomes of it."""
     if scheme != "semiImplicit":
         return 3
     return max(400 if every == 1 else 100, math.ceil(9 / stokes))
@@ -69,14 +69,14 @@ def map_drive(kind, stokes, cell, scheme, every):
 
 
 def map_slip(run, kind, stokes, cell, scheme, late=0):
-    """Slip over terminal slip at the meetings; late=1: in the flow of the meeting before, which the particles have felt since."""
+    """Slip over terminal slip at the coupling steps; late=1: in the flow of the coupling step before, which the particles have felt since."""
     particles = run.column("v_w")
     fluid = [0.0] * len(particles) if scheme == "held" else [u / (1 - SOLID) for u in run.csv("mean_velocity")]
     return [(v - u) / map_terminal(kind, stokes, cell) for v, u in zip(particles[late:], fluid)]
 
 
 def map_factor(slip, scheme):
-    """Factor per meeting of the deviation from the terminal slip: at the end, or, semi-implicit, on the mean since the kick."""
+    """Factor per coupling step of the deviation from the terminal slip: at the end, or, semi-implicit, on the mean since the kick."""
     if scheme != "semiImplicit":
         return math.sqrt(abs((slip[-1] - 1) / (slip[-3] - 1))) if abs(slip[-1] - 1) > 1e-6 else 0.0
     kicked = [abs(s - 1) for s in slip[len(slip) // 2 + 1:]]

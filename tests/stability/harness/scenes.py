@@ -156,7 +156,7 @@ def plug(hole, pipe, offset, spacing, height):
 
 
 def held_drag(viscosity, diameter, density, solid, every, gravity):
-    """Chien's viscous drag in a suspension from the velocity at a meeting, held over the DEM steps to the next, and buoyancy: what a coupling
+    """Chien's viscous drag in a suspension from the velocity at a coupling step, held over the DEM steps to the next, and buoyancy: what a coupling
     does whose particles receive a force."""
     drag = f"-{15 * math.pi / 4 * viscosity * diameter * (1 - solid) ** -1.65!r}*v"
     # Without a run before it stock's fix store/state reads a list that is not there yet.

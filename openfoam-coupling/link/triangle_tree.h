@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The triangle of a surface that is nearest to a point.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace eccentra::link {
+
+class TriangleTree {
+ public:
+  using Triangle = std::array<Eigen::Vector3d, 3>;
+  explicit TriangleTree(std::vector<Triangle> triangles);
+
+  struct Nearest {
+    int triangle = -1; ///< -1: there is none
+    double distance = 0;
+    Eigen::Vector3d weights; ///< of its corners at the nearest point
+  };
+  Nearest nearest(const Eigen::Vector3d& x) const;
+
+ private:
+  struct Node {
+    Eigen::Vector3d low, high;
+    int begin, end;  ///< triangles in order_
+    int left, right; ///< nodes; -1: a leaf
+  };
+  int build(int begin, int end);
+  std::vector<Triangle> triangles_;
+  std::vector<int> order_;
+  std::vector<Node> nodes_;
+};
+
+} // namespace eccentra::link
