@@ -446,24 +446,40 @@ TEST(Reported, adversary_12_a_resumed_run_that_inserts_on_two_ranks) {
 }
 
 TEST(Reported, resume_heap_alone) {
-  // A signal, at a step that no checkpoint was planned for; and a forgotten word.
+  // Signals, at steps that no checkpoint was planned for; a forgotten word; an insertion that is over.
   const fs::path whole = fresh_folder("whole"), parts = fresh_folder("parts");
-  for (const fs::path& folder : {whole, parts})
+  for (const fs::path& folder : {whole, parts}) {
     write_file(folder / "in.heap", heap_script("", 9000));
+    replace_in(folder / "in.heap", "count index 400", "count index 60");
+  }
   const std::vector<std::string> arguments = {program("eccentra-dem"), "-in", "in.heap"};
+  std::vector<std::string> resumes = arguments;
+  resumes.emplace_back("-resume");
   ASSERT_EQ(start(whole, arguments).status, 0);
-  BackgroundJob job(parts, arguments, "log.first");
-  ASSERT_TRUE(wait_until([&] { return fs::exists(parts / "checkpoints/4000"); })) << job.text();
-  job.signal(SIGTERM);
-  EXPECT_NE(job.wait(kLong), 0);
-  EXPECT_TRUE(says(job.text(), "is written, go on with: ")) << job.text();
+  const auto interrupt = [&](const std::vector<std::string>& words, const char* checkpoint, int number) {
+    BackgroundJob job(parts, words, "log.first");
+    ASSERT_TRUE(wait_until([&] { return fs::exists(parts / "checkpoints" / checkpoint); })) << job.text();
+    job.signal(number);
+    EXPECT_NE(job.wait(kLong), 0) << job.text();
+    EXPECT_TRUE(says(job.text(), "is written, go on with: ")) << job.text();
+  };
+  interrupt(arguments, "3000", SIGTERM);
   const ProgramResult forgotten = start(parts, arguments);
   EXPECT_NE(forgotten.status, 0);
   EXPECT_TRUE(says(forgotten.output, "of a run that was interrupted")) << forgotten.output;
-  const ProgramResult again = start(parts, {program("eccentra-dem"), "-in", "in.heap", "-resume"});
+  interrupt(resumes, "5000", SIGINT);
+  const ProgramResult again = start(parts, resumes);
   EXPECT_EQ(again.status, 0) << again.output;
-  EXPECT_EQ(contents(parts / "end.bodies"), contents(whole / "end.bodies"));
+  const std::string end = contents(whole / "end.bodies");
+  EXPECT_TRUE(says(end, "\n60 ")) << end;
+  EXPECT_EQ(contents(parts / "end.bodies"), end);
   EXPECT_TRUE(fs::exists(parts / "log.liggghts.before-1"));
+  // To more bodies than before: the insertion goes on.
+  replace_in(parts / "in.heap", "count index 60", "count index 90");
+  replace_in(parts / "in.heap", "run 9000", "run 11500");
+  const ProgramResult more = start(parts, resumes);
+  EXPECT_EQ(more.status, 0) << more.output;
+  EXPECT_TRUE(says(contents(parts / "end.bodies"), "\n90 ")) << more.output;
 }
 
 TEST(Reported, adversary_14_standard_output_on_a_full_disk) {

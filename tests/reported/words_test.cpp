@@ -396,6 +396,11 @@ TEST(Reported, keywords_of_stock_styles) {
        "verbose no random_distribute exact maxattempt 10 vel gaussian 0 0 0 0.1 0.1 0.1 omega constant 1 0 "
        "0 region box particles_in_region 1\nfix integr",
        nullptr},
+      // fix balance, which LAMMPS has
+      {"fix integr", "fix b all balance/bodies every 10 shift xyz\nfix integr", "shift"},
+      {"fix integr", "fix b all balance/bodies every 10 threshold 0.5\nfix integr", "threshold"},
+      {"fix integr", "fix b all balance/bodies threshold 1.5\nfix integr", "every"},
+      {"fix integr", "fix b all balance/bodies every 10 threshold 1.5\nfix integr", nullptr},
       // dump_modify of dump custom/vtk
       {"fix integr", "dump v all cluster/vtk 1 v_*.vtp\ndump_modify v append yes\nfix integr", "append 'yes'"},
       {"fix integr", "dump v all cluster/vtk 1 v_*.vtp\ndump_modify v format %g\nfix integr", "format '%g'"},

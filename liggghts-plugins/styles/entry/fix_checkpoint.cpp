@@ -120,7 +120,7 @@ void FixCheckpoint::post_create() {
 void FixCheckpoint::init() {
   alone_ = modify->find_fix_style("fluid/couple", 0) == nullptr;
   if (resuming())
-    restore_insertion_seeds(lmp, states_);
+    restore_insertions(lmp, states_);
 }
 
 void FixCheckpoint::setup(int) {
@@ -272,13 +272,18 @@ void FixCheckpoint::restart(char* buffer) {
   resumed_step_ = step;
   resumed_.assign(atom->nmax, Resumed{});
   // Other ranks have other places to insert at: their generators begin as LIGGGHTS has it.
-  for (int rank = 0; ranks == comm->nprocs && rank <= comm->me; ++rank) {
+  const bool same_ranks = ranks == comm->nprocs;
+  for (int rank = 0; rank <= (same_ranks ? comm->me : 0); ++rank) {
     std::size_t bytes = 0;
     text >> bytes;
     text.get();
     states_.assign(bytes, ' ');
     text.read(states_.data(), static_cast<std::streamsize>(bytes));
   }
+  if (!same_ranks)
+    states_ = next_insertions(states_);
+  // Insertions that are initialised before this fix.
+  restore_insertions(lmp, states_);
 }
 
 } // namespace eccentra::styles

@@ -19,6 +19,7 @@
 #include "region.h"
 #include "tri_mesh.h"
 
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <map>
@@ -46,6 +47,12 @@ struct OfInsertion {
 struct SeedOfInsertion {
   using type = int FixInsert::*;
 };
+struct NumberToInsert {
+  using type = int FixInsert::*;
+};
+struct MassToInsert {
+  using type = double FixInsert::*;
+};
 struct OfDistribution {
   using type = RanPark* FixParticledistributionDiscrete::*;
 };
@@ -69,6 +76,8 @@ template struct PrivateMember<Second, &RanPark::second>;
 template struct PrivateMember<OfRegion, &Region::random>;
 template struct PrivateMember<OfInsertion, &FixInsert::random>;
 template struct PrivateMember<SeedOfInsertion, &FixInsert::seed>;
+template struct PrivateMember<NumberToInsert, &FixInsert::ninsert>;
+template struct PrivateMember<MassToInsert, &FixInsert::massinsert>;
 template struct PrivateMember<OfDistribution, &FixParticledistributionDiscrete::random>;
 template struct PrivateMember<OfTemplate, &FixTemplateSphere::random_insertion>;
 template struct PrivateMember<OfSieve, &FixMassflowMeshSieve::random_>;
@@ -98,10 +107,32 @@ void for_generators(LAMMPS* lmp, const Visit& visit) {
   }
 }
 
-void for_insertions(LAMMPS* lmp, const std::function<void(const std::string& name, int& seed)>& visit) {
+void for_insertions(LAMMPS* lmp, const std::function<void(FixInsert& insertion)>& visit) {
   for (int i = 0; i < lmp->modify->nfix; ++i)
     if (auto* const insertion = dynamic_cast<FixInsert*>(lmp->modify->fix[i]))
-      visit(std::string("seed/") + insertion->id, insertion->*Published<SeedOfInsertion>::pointer);
+      visit(*insertion);
+}
+
+std::string seed_of(const FixInsert& insertion) {
+  return std::string("seed/") + insertion.id;
+}
+
+constexpr const char* kNext = "next/";
+
+std::string next_of(const FixInsert& insertion) {
+  return std::string(kNext) + insertion.id;
+}
+
+/// It has inserted all that its script asks for: more than before if the script was changed.
+bool is_over(FixInsert& insertion) {
+  constexpr int kInsertedNumber = 0; // of its vector
+  if (insertion.ins_every() == 0)
+    return true;
+  // The number is known from the script, or from the set-up of a run on.
+  const int number = insertion.*Published<NumberToInsert>::pointer;
+  const double mass = insertion.*Published<MassToInsert>::pointer;
+  const double asked = number > 0 ? number : std::floor(mass / insertion.get_distribution()->mass_expect());
+  return insertion.compute_vector(kInsertedNumber) >= asked;
 }
 
 /// The lines by their first word.
@@ -125,17 +156,31 @@ std::string random_states(LAMMPS* lmp) {
                   generator.*Published<Saved>::pointer ? generator.*Published<Second>::pointer : 0.0);
     states += owner + numbers;
   });
-  for_insertions(lmp,
-                 [&](const std::string& owner, int& seed) { states += owner + ' ' + std::to_string(seed) + '\n'; });
+  for_insertions(lmp, [&](FixInsert& insertion) {
+    states += seed_of(insertion) + ' ' + std::to_string(insertion.*Published<SeedOfInsertion>::pointer) + '\n';
+    states += next_of(insertion) + ' ' + std::to_string(insertion.next_reneighbor) + '\n';
+  });
   return states;
 }
 
-void restore_insertion_seeds(LAMMPS* lmp, const std::string& states) {
+std::string next_insertions(const std::string& states) {
+  std::string kept;
+  for (const auto& [owner, rest] : lines_by_owner(states))
+    if (owner.rfind(kNext, 0) == 0)
+      kept += owner + rest + '\n';
+  return kept;
+}
+
+void restore_insertions(LAMMPS* lmp, const std::string& states) {
   const std::map<std::string, std::string> lines = lines_by_owner(states);
-  for_insertions(lmp, [&](const std::string& owner, int& seed) {
-    const auto line = lines.find(owner);
-    if (line != lines.end())
-      seed = std::stoi(line->second);
+  for_insertions(lmp, [&](FixInsert& insertion) {
+    const auto seed = lines.find(seed_of(insertion));
+    if (seed != lines.end())
+      insertion.*Published<SeedOfInsertion>::pointer = std::stoi(seed->second);
+    // LIGGGHTS would have an insertion that is over begin again at the next step.
+    const auto next = lines.find(next_of(insertion));
+    if (next != lines.end() && std::stoll(next->second) <= 0 && is_over(insertion))
+      insertion.next_reneighbor = std::stoll(next->second);
   });
 }
 

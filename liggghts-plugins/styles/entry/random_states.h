@@ -13,11 +13,15 @@ class LAMMPS;
 namespace eccentra::styles {
 
 /// The states of all generators of this rank, one line each: of regions, insertions, templates, distributions, sieves
-/// and meshes.
+/// and meshes; and the step of the next insertion.
 std::string random_states(LAMMPS_NS::LAMMPS* lmp);
 
-/// Sets the seeds from which insertions measure their regions at set-up. Call before the set-up of a run.
-void restore_insertion_seeds(LAMMPS_NS::LAMMPS* lmp, const std::string& states);
+/// Of these lines, those that hold on any number of ranks: when insertions come next.
+std::string next_insertions(const std::string& states);
+
+/// Sets the seeds from which insertions measure their regions at set-up, and keeps insertions that are over from
+/// beginning again. Call before the set-up of a run, and before its fixes are initialised.
+void restore_insertions(LAMMPS_NS::LAMMPS* lmp, const std::string& states);
 
 /// Sets the generators back. Call after the set-up of a run, which uses some of them.
 void restore_random_states(LAMMPS_NS::LAMMPS* lmp, const std::string& states);
