@@ -11,7 +11,7 @@ if(ECCENTRA_OPENFOAM)
       adversary_14_standard_output_on_a_full_disk
       adversary_15_words_of_run adversary_17_names_of_folders adversary_4_comma_locale
       resume_over_the_socket_on_two_ranks
-      resume_script_that_does_not_read_the_checkpoint resume_heap_alone
+      resume_script_that_does_not_read_the_checkpoint resume_every_insertion resume_heap_alone
     LIBRARIES eccentra_link DEPENDS annulusFoam annulusMesh LABELS coupled TIMEOUT 200
     ENVIRONMENT "ECCENTRA_CASES=${PROJECT_SOURCE_DIR}/cases")
   target_sources(reported_resume PRIVATE "${PROJECT_SOURCE_DIR}/tests/coupled/coupled_case.cpp")

@@ -445,6 +445,55 @@ TEST(Reported, adversary_12_a_resumed_run_that_inserts_on_two_ranks) {
   expect_heap_goes_on(2);
 }
 
+TEST(Reported, resume_every_insertion) {
+  const char* const common = " seed 86028121 distributiontemplate grains overlapcheck yes verbose no ";
+  const struct {
+    const char* style;
+    const char* words;
+  } insertions[] = {
+      {"rate/region",
+       "all_in yes mass 0.05 massrate 0.3 insert_every 1000 vel gaussian 0 0 -0.5 0.1 0.1 0.1 region spout"},
+      {"pack", "all_in yes insert_every 1000 vel uniform 0 0 -0.5 0.1 0.1 0.1 region spout particles_in_region 25"},
+      {"pack", "all_in yes insert_every once vel constant 0 0 -0.5 region spout particles_in_region 40"},
+      {"stream",
+       "all_in no nparticles 100 particlerate 800 vel constant 0 0 -0.8 insertion_face face extrude_length 0.04"}};
+  int number = 0;
+  for (const auto& insertion : insertions) {
+    SCOPED_TRACE(std::string(insertion.style) + ' ' + insertion.words);
+    std::string script = heap_script("", 4000);
+    const auto replaced = [&](const std::string& from, const std::string& upto, const std::string& by) {
+      const std::size_t at = script.find(from), end = script.find(upto, at);
+      ASSERT_NE(end, std::string::npos) << from;
+      script.replace(at, end - at, by);
+    };
+    replaced("fix pour", "fix floor",
+             "fix face all mesh/surface/planar file face.stl type 1\nfix pour all insert/" +
+                 std::string(insertion.style) + common + insertion.words + '\n');
+    replaced("every 1000", "#", "every 700 ");
+    const std::string name = std::to_string(++number);
+    const fs::path whole = fresh_folder("whole" + name), parts = fresh_folder("parts" + name);
+    for (const fs::path& folder : {whole, parts}) {
+      write_file(folder / "in.heap", script);
+      write_file(folder / "face.stl",
+                 "solid f\nfacet normal 0 0 1\nouter loop\nvertex -0.02 -0.02 0.2\nvertex 0.02 -0.02 0.2\n"
+                 "vertex 0 0.02 0.2\nendloop\nendfacet\nendsolid f\n");
+    }
+    const std::vector<std::string> arguments = {program("eccentra-dem"), "-in", "in.heap", "-var", "shape", "cube 8"};
+    ASSERT_EQ(start(whole, arguments).status, 0) << start(whole, arguments).output;
+    BackgroundJob job(parts, arguments, "log.first");
+    ASSERT_TRUE(wait_until([&] { return fs::exists(parts / "checkpoints/1400"); })) << job.text();
+    job.signal(SIGKILL);
+    job.wait(kLong);
+    std::vector<std::string> resumes = arguments;
+    resumes.emplace_back("-resume");
+    const ProgramResult again = start(parts, resumes);
+    EXPECT_EQ(again.status, 0) << again.output;
+    const std::string end = contents(whole / "end.bodies");
+    EXPECT_GT(std::count(end.begin(), end.end(), '\n'), 40);
+    EXPECT_EQ(contents(parts / "end.bodies"), end);
+  }
+}
+
 TEST(Reported, resume_heap_alone) {
   // Signals, at steps that no checkpoint was planned for; a forgotten word; an insertion that is over.
   const fs::path whole = fresh_folder("whole"), parts = fresh_folder("parts");

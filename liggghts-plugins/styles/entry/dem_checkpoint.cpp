@@ -12,6 +12,7 @@
 #include <mpi.h>
 
 #include "comm.h"
+#include "fix_insert_stream.h"
 #include "modify.h"
 #include "update.h"
 #include "write_restart.h"
@@ -99,6 +100,10 @@ link::CheckpointMark new_mark(LAMMPS* lmp) {
 }
 
 void write_dem_checkpoint(LAMMPS* lmp, const link::CheckpointMark& mark, link::Notes notes) {
+  // A stream moves its bodies at the end of a step, perhaps after the fix that writes: it may do so twice.
+  for (int i = 0; i < lmp->modify->nfix; ++i)
+    if (auto* const stream = dynamic_cast<FixInsertStream*>(lmp->modify->fix[i]))
+      stream->end_of_step();
   // Contact history is with the neighbour lists until somebody asks for it.
   lmp->modify->setup_pre_exchange();
   std::unique_ptr<FileInMemory> file;

@@ -15,6 +15,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "fix_property_atom.h"
 #include "modify.h"
 #include "update.h"
 
@@ -35,7 +36,12 @@ const RegisterFix<FixCheckpoint> kRecord("checkpoint/state",
                                          "added by resumable and fix fluid/couple: what a checkpoint keeps");
 
 constexpr const char* kId = "eccentra_checkpoint";
-constexpr int kForceDoubles = 6;
+constexpr int kRelease = 6; ///< place of the release step
+constexpr int kDoubles = 7;
+constexpr double kNoStep = -1;
+/// Fix insert/stream keeps its bodies' data in a fix of this ID; the release step is in this column.
+constexpr const char* kStreamData = "release_fix_insert_stream";
+constexpr int kReleaseColumn = 4;
 /// Listing neighbours anew costs a few steps.
 constexpr std::int64_t kMinGrid = 50;
 constexpr std::int64_t kMaxGrid = 200;
@@ -49,6 +55,13 @@ std::int64_t grid_of(std::int64_t every) {
     if (every % grid == 0)
       return grid;
   return every;
+}
+
+/// Null where no fix insert/stream is there.
+double** stream_data(LAMMPS* lmp) {
+  const int found = lmp->modify->find_fix(kStreamData);
+  const auto* const data = found < 0 ? nullptr : dynamic_cast<FixPropertyAtom*>(lmp->modify->fix[found]);
+  return data ? data->array_atom : nullptr;
 }
 
 /// The texts of all ranks on the first.
@@ -184,6 +197,11 @@ void FixCheckpoint::restore() {
     if (atom->torque)
       std::copy_n(resumed_[i].values + 3, 3, atom->torque[i]);
   }
+  // LIGGGHTS has taken it from the way that the body has gone, and cut off what comes after the point.
+  double** const stream = stream_data(lmp);
+  for (int i = 0; stream && i < atom->nlocal; ++i)
+    if (resumed_[i].values[kRelease] != kNoStep)
+      stream[i][kReleaseColumn] = resumed_[i].values[kRelease];
   restore_random_states(lmp, states_);
   states_.clear();
   resumed_.clear();
@@ -208,23 +226,25 @@ void FixCheckpoint::set_arrays(int i) {
 int FixCheckpoint::pack_exchange(int i, double* buffer) {
   if (!resuming())
     return 0;
-  std::copy_n(resumed_[i].values, kForceDoubles, buffer);
-  return kForceDoubles;
+  std::copy_n(resumed_[i].values, kDoubles, buffer);
+  return kDoubles;
 }
 
 int FixCheckpoint::unpack_exchange(int row, double* buffer) {
   if (!resuming())
     return 0;
-  std::copy_n(buffer, kForceDoubles, resumed_[row].values);
-  return kForceDoubles;
+  std::copy_n(buffer, kDoubles, resumed_[row].values);
+  return kDoubles;
 }
 
 int FixCheckpoint::pack_restart(int i, double* buffer) {
   buffer[0] = size_restart(i);
   std::copy_n(atom->f[i], 3, buffer + 1);
-  std::fill_n(buffer + 4, 3, 0.0);
+  std::fill_n(buffer + 4, 4, 0.0);
   if (atom->torque)
     std::copy_n(atom->torque[i], 3, buffer + 4);
+  if (double** const stream = stream_data(lmp))
+    buffer[1 + kRelease] = stream[i][kReleaseColumn];
   return size_restart(i);
 }
 
@@ -234,15 +254,17 @@ void FixCheckpoint::unpack_restart(int row, int nth) {
   const double* extra = atom->extra[row];
   for (int i = 0; i < nth; ++i)
     extra += static_cast<int>(*extra);
-  std::copy_n(extra + 1, kForceDoubles, resumed_[row].values);
+  // Records of earlier versions have no release step.
+  resumed_[row].values[kRelease] = kNoStep;
+  std::copy_n(extra + 1, std::min(static_cast<int>(*extra) - 1, kDoubles), resumed_[row].values);
 }
 
 int FixCheckpoint::size_restart(int) {
-  return 1 + kForceDoubles;
+  return 1 + kDoubles;
 }
 
 int FixCheckpoint::maxsize_restart() {
-  return 1 + kForceDoubles;
+  return 1 + kDoubles;
 }
 
 // Step, time step, ranks; then of each rank the number of bytes of its states and these.

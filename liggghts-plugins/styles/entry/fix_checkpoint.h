@@ -51,9 +51,9 @@ class FixCheckpoint : public LAMMPS_NS::Fix {
   void restart(char* buffer) override;
 
  private:
-  /// Force and torque with which a run goes on.
+  /// Force and torque with which a run goes on; then the step at which fix insert/stream lets the body go, or 0.
   struct Resumed {
-    double values[6];
+    double values[7];
   };
   [[noreturn]] void refuse(const std::string& text);
   bool resuming() const { return resumed_step_ >= 0; }

@@ -9,6 +9,7 @@
 
 #include "domain.h"
 #include "fix_insert.h"
+#include "fix_insert_stream.h"
 #include "fix_massflow_mesh_sieve.h"
 #include "fix_mesh_surface.h"
 #include "fix_particledistribution_discrete.h"
@@ -53,6 +54,18 @@ struct NumberToInsert {
 struct MassToInsert {
   using type = double FixInsert::*;
 };
+struct MeasuresShare {
+  using type = bool FixInsertStream::*;
+};
+struct Share {
+  using type = double FixInsertStream::*;
+};
+struct ShortestExtrusion {
+  using type = double FixInsertStream::*;
+};
+struct LongestExtrusion {
+  using type = double FixInsertStream::*;
+};
 struct OfDistribution {
   using type = RanPark* FixParticledistributionDiscrete::*;
 };
@@ -78,6 +91,10 @@ template struct PrivateMember<OfInsertion, &FixInsert::random>;
 template struct PrivateMember<SeedOfInsertion, &FixInsert::seed>;
 template struct PrivateMember<NumberToInsert, &FixInsert::ninsert>;
 template struct PrivateMember<MassToInsert, &FixInsert::massinsert>;
+template struct PrivateMember<MeasuresShare, &FixInsertStream::do_ins_fraction_calc>;
+template struct PrivateMember<Share, &FixInsertStream::ins_fraction>;
+template struct PrivateMember<ShortestExtrusion, &FixInsertStream::extrude_length_min>;
+template struct PrivateMember<LongestExtrusion, &FixInsertStream::extrude_length_max>;
 template struct PrivateMember<OfDistribution, &FixParticledistributionDiscrete::random>;
 template struct PrivateMember<OfTemplate, &FixTemplateSphere::random_insertion>;
 template struct PrivateMember<OfSieve, &FixMassflowMeshSieve::random_>;
@@ -111,6 +128,11 @@ void for_insertions(LAMMPS* lmp, const std::function<void(FixInsert& insertion)>
   for (int i = 0; i < lmp->modify->nfix; ++i)
     if (auto* const insertion = dynamic_cast<FixInsert*>(lmp->modify->fix[i]))
       visit(*insertion);
+}
+
+/// What a stream has measured with its generators at its first insertion, on this rank.
+std::string share_of(const FixInsertStream& stream) {
+  return std::string("share/") + stream.id;
 }
 
 std::string seed_of(const FixInsert& insertion) {
@@ -159,6 +181,13 @@ std::string random_states(LAMMPS* lmp) {
   for_insertions(lmp, [&](FixInsert& insertion) {
     states += seed_of(insertion) + ' ' + std::to_string(insertion.*Published<SeedOfInsertion>::pointer) + '\n';
     states += next_of(insertion) + ' ' + std::to_string(insertion.next_reneighbor) + '\n';
+    auto* const stream = dynamic_cast<FixInsertStream*>(&insertion);
+    if (!stream || stream->*Published<MeasuresShare>::pointer)
+      return;
+    char numbers[80];
+    std::snprintf(numbers, sizeof numbers, " %.17g %.17g %.17g\n", stream->*Published<Share>::pointer,
+                  stream->*Published<ShortestExtrusion>::pointer, stream->*Published<LongestExtrusion>::pointer);
+    states += share_of(*stream) + numbers;
   });
   return states;
 }
@@ -186,6 +215,16 @@ void restore_insertions(LAMMPS* lmp, const std::string& states) {
 
 void restore_random_states(LAMMPS* lmp, const std::string& states) {
   const std::map<std::string, std::string> lines = lines_by_owner(states);
+  for_insertions(lmp, [&](FixInsert& insertion) {
+    auto* const stream = dynamic_cast<FixInsertStream*>(&insertion);
+    const auto line = stream ? lines.find(share_of(*stream)) : lines.end();
+    if (line == lines.end())
+      return;
+    std::istringstream numbers(line->second);
+    numbers >> stream->*Published<Share>::pointer >> stream->*Published<ShortestExtrusion>::pointer >>
+        stream->*Published<LongestExtrusion>::pointer;
+    stream->*Published<MeasuresShare>::pointer = false;
+  });
   for_generators(lmp, [&](const std::string& owner, RanPark& generator) {
     const auto line = lines.find(owner);
     if (line == lines.end())
