@@ -34,6 +34,8 @@ STUDIES = {
     "rheology-accuracy": ([], {"--cells": ["20"], "--ratios": ["10"], "--steps": ["30"], "--quick": []}, ()),
     "creeping-drag": (["--indices", "1", "--bingham", "1", "--aspects", "1"], {
         "--indices": ["0.6"], "--bingham": ["10"], "--aspects": ["2"], "--checks": ["no"], "--quick": []}, ()),
+    "oriented-section": (["--shapes", "disk:7", "--inclinations", "80", "--seeds", "1", "--count", "50"], {
+        "--shapes": ["cube:8"], "--inclinations": ["0"], "--seeds": ["2"], "--count": ["60"], "--quick": []}, ()),
     "drag-against-measurement": (["--data", "POINTS"], {"--data": ["OTHER_POINTS"], "--laws": ["chien"]}, ()),
     "solver-cost": ([], {"--cells": ["4 24 10"], "--length": ["0.2"], "--steps": ["3"], "--turns": ["1"], "--pressure": ["pcg"],
                          "--viscosity": ["strainRate"], "--quick": []}, ()),

@@ -48,6 +48,20 @@ std::string read(const std::string& name) {
   return text.str();
 }
 
+TEST(ClusterShapeTool, PrintsTheResistanceInCreepingFlow) {
+  const nlohmann::json r = json_of("disk 48")["resistance"];
+  EXPECT_NEAR(r["translation"][2][2].get<double>(), 1.232, 5e-3);
+  EXPECT_EQ(r["translation"][0][0], r["translation"][1][1]);
+  EXPECT_NEAR(r["rotation"][2][2].get<double>(), 1.748, 1e-2);
+  EXPECT_NEAR(r["bretherton"][1].get<double>(), -.717, 5e-3);
+  EXPECT_NEAR(r["jeffery_period"][1].get<double>(), 18.06, 5e-2);
+  EXPECT_EQ(r["centre"], nlohmann::json({0., 0., 0.}));
+  const std::string text = run("disk 48").text;
+  for (const char* row :
+       {"K, of the sphere's drag", "K_rot, of", "B, spin by strain", "Jeffery's period", "centre of resistance"})
+    EXPECT_NE(text.find(row), std::string::npos) << row;
+}
+
 TEST(ClusterShapeTool, JsonHoldsTheKeysOfTheDesign) {
   const nlohmann::json j = json_of("cube 64 --diameter 6.35e-3");
   EXPECT_EQ(j["name"], "cube 64");

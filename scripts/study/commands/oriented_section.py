@@ -1,0 +1,115 @@
+# SPDX-FileCopyrightText: Eccentra contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The section of Tomren with forces of the sphere of equal volume and with those of the real shape: flux, bed, attitude."""
+import math
+import re
+import shutil
+import statistics
+import struct
+
+from .. import charts, options, runs, section, tables
+from ..programs import run
+
+FORCES = {"sphere": "drag chien pressure_gradient on drag_torque dennis",
+          "oriented": "drag chien pressure_gradient on drag_torque dennis oriented on strain_torque jeffery pitching_torque dabade"}
+BINS = 9  # of the angle between a body's axis and the hole
+QUANTITIES = {"flux": "solid flux [m3/s]", "gradient": "pressure gradient [Pa/m]", "height": "height of the solid's centre [m]"}
+
+
+def axes_in(path):
+    """The z axis of each body in the world, from a file of dump cluster/vtk: raw data behind an underscore, each array behind its size."""
+    data = path.read_bytes()
+    head, raw = data.split(b'<AppendedData encoding="raw">', 1)
+    raw = raw[raw.index(b"_") + 1:]
+    offsets = {name.decode(): int(offset) for name, offset in re.findall(rb'<DataArray [^>]*Name="([^"]*)"[^>]*offset="(\d+)"', head)}
+
+    def array(name, letter):
+        at = offsets[name]
+        size = struct.unpack_from("<I", raw, at)[0]
+        return struct.unpack_from(f"<{size // 4}{letter}", raw, at + 4)
+    q = array("orientation", "f")
+    return {body: (2 * (q[4 * k + 1] * q[4 * k + 3] + q[4 * k] * q[4 * k + 2]), 2 * (q[4 * k + 2] * q[4 * k + 3] - q[4 * k] * q[4 * k + 1]),
+                   1 - 2 * (q[4 * k + 1] ** 2 + q[4 * k + 2] ** 2)) for k, body in enumerate(array("body", "i"))}
+
+
+def attitude(case, share):
+    """Angles [degrees] between the bodies' axes and the hole, over the last share of the pictures."""
+    files = sorted((case / "postProcessing" / "eccentra").glob("grains_*.vtp"), key=lambda f: int(re.search(r"(\d+)\.vtp", f.name)[1]))
+    angles = []
+    for path in files[math.floor((1 - share) * len(files)):]:
+        angles += [math.degrees(math.acos(min(1.0, abs(axis[2])))) for axis in axes_in(path).values()]
+    return angles
+
+
+def job(chosen, shape, forces, inclination, seed):
+    words = {"shape": shape, "count": chosen.count, "inclination": inclination, "seed": seed, "seconds": chosen.seconds, "interval": chosen.interval,
+             "effects": FORCES[forces]}
+
+    def work(folder):
+        case, cpu, _ = section.run_case(chosen.build, folder, words)
+        run([chosen.build / "bin" / "annulusReport", case, "-o", folder, "--share", "0.5", "--no-pictures"], folder, folder / "report.txt")
+        angles = attitude(case, 0.5)
+        counts = [sum(1 for a in angles if min(BINS - 1, int(a / 90 * BINS)) == k) / len(angles) for k in range(BINS)]
+        result = {"mean": section.read_summary(folder / "summary.csv"), "histogram": counts,
+                  "across": statistics.fmean(math.cos(math.radians(a)) for a in angles), "cpu": cpu}
+        shutil.rmtree(case)
+        return result
+
+    return runs.Job(f"{shape}, {forces}, {inclination:g} degrees, seed {seed}", {"what": "oriented section", "case": section.case_digest(),
+                    **{key: str(value) for key, value in words.items()}}, work, section.estimate_of(words, 48))
+
+
+def mean_and_error(values):
+    return statistics.fmean(values), statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else math.nan
+
+
+def main():
+    parser = options.Parser("oriented-section", "Runs cases/tomren-section with clusters, once with the drag and torque of the sphere of equal volume and once "
+                            "with those of the real shape: solid flux, pressure gradient, height of the solids, and how the bodies lie, as means over seeds "
+                            "with standard errors.", "one shape, one seed, 0.2 s")
+    parser.add_argument("--shapes", action=options.Words, metavar="S", help="as disk:48 (default: disk:48 cube:64)")
+    parser.add_argument("--inclinations", action=options.Words, metavar="DEG", help="from the vertical (default: 0 40 80)")
+    parser.add_argument("--seeds", type=options.at_least_one, metavar="N", help="starts of each (default 3)")
+    parser.add_argument("--count", type=options.at_least_one, default=600, metavar="N", help="bodies (default 600)")
+
+    def check(chosen):
+        chosen.shapes = [shape.replace(":", " ") for shape in chosen.shapes or (["disk:48"] if chosen.quick else ["disk:48", "cube:64"])]
+        try:
+            chosen.inclinations = [float(word) for word in chosen.inclinations or (["80"] if chosen.quick else ["0", "40", "80"])]
+        except ValueError as error:
+            parser.error(f"--inclinations: {error}")
+        chosen.seeds = chosen.seeds or (1 if chosen.quick else 3)
+        if chosen.seeds > len(section.SEEDS):
+            parser.error(f"--seeds is {chosen.seeds}: give at most {len(section.SEEDS)}")
+        chosen.seconds, chosen.interval = (0.2, 64) if chosen.quick else (2.0, 64)
+
+    chosen = parser.settle(("annulusFoam", "annulusMesh", "annulusReport"), check)
+    keys = [(shape, inclination, forces) for shape in chosen.shapes for inclination in chosen.inclinations for forces in FORCES]
+    jobs = {(*key, seed): job(chosen, key[0], key[2], key[1], seed) for key in keys for seed in section.SEEDS[:chosen.seeds]}
+    found = chosen.store.run_all("section", jobs.values())
+    if chosen.plan:
+        return 0
+    found = runs.needed(found, jobs)
+    rows, histograms = [], []
+    for shape, inclination, forces in keys:
+        results = [found[shape, inclination, forces, seed] for seed in section.SEEDS[:chosen.seeds]]
+        row = [shape, f"{inclination:g}", forces]
+        for name in QUANTITIES:
+            value, error = mean_and_error([r["mean"][name][0] for r in results])
+            row += [f"{value:.3e}", f"{error:.1e}"]
+        value, error = mean_and_error([r["across"] for r in results])
+        rows.append([*row, f"{value:.3f}", f"{error:.3f}"])
+        histograms.append((shape, inclination, forces, [statistics.fmean(column) for column in zip(*(r["histogram"] for r in results))]))
+    header = ["shape", "degrees", "forces"] + [word for name in QUANTITIES for word in (name, f"{name}_error")] + ["cosine_to_hole", "cosine_error"]
+    tables.publish(chosen, "section", "Section with forces of the sphere and of the real shape", header, rows)
+    panels = []
+    for shape in chosen.shapes:
+        for inclination in chosen.inclinations:
+            series = [charts.Series(forces, [charts.Point((k + 0.5) * 90 / BINS, part * BINS) for k, part in enumerate(counts)], charts.COLOURS[n], True)
+                      for n, (s, i, forces, counts) in enumerate(h for h in histograms if h[:2] == (shape, inclination))]
+            even = [charts.Point((k + 0.5) * 90 / BINS, BINS * (math.cos(math.radians(k * 90 / BINS)) - math.cos(math.radians((k + 1) * 90 / BINS))))
+                    for k in range(BINS)]
+            panels.append(charts.Panel(f"{shape}, {inclination:g} degrees", "angle of the axis to the hole [degrees]", "density, mean 1",
+                                       [*series, charts.Series("any direction alike", even, charts.COLOURS[7], True, False, True)]))
+    charts.write(chosen.out / "attitude.svg", "How the bodies lie", panels)
+    return 0
