@@ -3,6 +3,8 @@
 // Copies a shape's surface sub-spheres into arrays.
 #include "contact/surface_spheres.h"
 
+#include "shape/rounded_hull.h"
+
 #include <algorithm>
 
 namespace eccentra::contact {
@@ -21,6 +23,15 @@ SurfaceSpheres::SurfaceSpheres(const shape::ClusterShape& shape)
     r.push_back(sphere.radius);
   }
   finish();
+  hull = shape.hull() && !single_at_centre; // a ball is a sphere
+  if (hull) {
+    core = contact::ContactCore(*shape.hull());
+  } else {
+    std::vector<Eigen::Vector3d> centres;
+    for (int k = 0; k < count; ++k)
+      centres.emplace_back(x[k], y[k], z[k]);
+    core = contact::ContactCore(centres, r);
+  }
   if (single_at_centre)
     return;
   const auto& inertia = shape.inertia_per_mass();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "contact/body_state.h"
+#include "contact/contact_core.h"
 #include "shape/cluster_shape.h"
 
 #include <vector>
@@ -29,6 +30,9 @@ struct SurfaceSpheres {
   /// turn them by their normal force.
   double inverse_inertia[3] = {0, 0, 0};
   bool equal_moments = true;
+  /// The same body for the contacts of rounded ones; `hull`: it is one itself.
+  contact::ContactCore core;
+  bool hull = false;
   bool single_at_centre; ///< one sphere at the centre of mass: its orientation cannot matter
 
  private:

@@ -3,6 +3,7 @@
 // From spheres in any frame to a shape in its body frame.
 #include "shape/cluster_shape.h"
 
+#include "shape/rounded_hull.h"
 #include "shape/union_geometry.h"
 
 #include <Eigen/Eigenvalues>
@@ -122,6 +123,16 @@ ClusterShape::ClusterShape(std::string name, std::vector<Sphere> spheres, const 
       surface_spheres_.push_back(static_cast<int>(i));
       smallest_radius_ = std::min(smallest_radius_, spheres_[i].radius);
     }
+}
+
+ClusterShape::ClusterShape(const RoundedHull& hull)
+    : name_(hull.name()), volume_(hull.volume()), surface_(hull.surface()), given_centre_(hull.given_centre()),
+      inertia_per_mass_(hull.inertia_per_mass()), bounding_radius_(hull.bounding_radius()),
+      smallest_radius_(hull.radius()), hull_(std::make_shared<RoundedHull>(hull)) {
+  for (const Eigen::Vector3d& point : hull.points()) {
+    surface_spheres_.push_back(static_cast<int>(spheres_.size()));
+    spheres_.push_back({point, hull.radius()});
+  }
 }
 
 double ClusterShape::equivalent_radius() const {

@@ -5,10 +5,13 @@
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace eccentra::shape {
+
+class RoundedHull;
 
 /// One sub-sphere. Body frame, metres.
 struct Sphere {
@@ -24,14 +27,19 @@ struct MassProperties {
   Eigen::Matrix3d inertia_per_mass; ///< about the centre [m2]
 };
 
-/// An immutable shape. The body frame has its origin at the centre of mass and its axes along the principal axes, so
+/// An immutable shape: a union of spheres, or a rounded convex body, whose spheres then are the points of its core with
+/// its radius. The body frame has its origin at the centre of mass and its axes along the principal axes, so
 /// that the inertia is diagonal; a particle's orientation quaternion (w x y z) turns body into world.
 class ClusterShape {
  public:
   /// Takes spheres in any frame and the mass properties in that same frame, and turns both into the body frame.
   ClusterShape(std::string name, std::vector<Sphere> spheres, const MassProperties& properties);
 
+  explicit ClusterShape(const RoundedHull& hull);
+
   const std::string& name() const { return name_; }
+  /// The rounded body, or null for a union of spheres.
+  const RoundedHull* hull() const { return hull_.get(); }
   /// All sub-spheres, body frame.
   const std::vector<Sphere>& spheres() const { return spheres_; }
   /// Indices of the sub-spheres that another body can touch (C64: 56 of 64); contact needs only these.
@@ -57,6 +65,7 @@ class ClusterShape {
   Eigen::Vector3d inertia_per_mass_;
   double bounding_radius_;
   double smallest_radius_;
+  std::shared_ptr<const RoundedHull> hull_;
 };
 
 /// Reads shape arguments as users type them, from arg[first] on: `sphere 1 | sphere 6 | cube N | disk 7|19|48 |

@@ -3,6 +3,7 @@
 // Per-body data of clusters as a LIGGGHTS fix.
 #include "styles/bodies/fix_cluster_bodies.h"
 
+#include "shape/rounded_record.h"
 #include "styles/bodies/body_checks.h"
 #include "styles/bodies/restart_version.h"
 #include "styles/bodies/unread_properties.h"
@@ -20,6 +21,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 
 namespace eccentra::styles {
 
@@ -293,6 +295,10 @@ void FixClusterBodies::write_restart(FILE* fp) {
     bytes.put(shape.surface());
     for (int k = 0; k < 3; ++k)
       bytes.put(shape.inertia_per_mass()[k]);
+    const std::vector<double> hull = shape.hull() ? shape::record_of(*shape.hull()) : std::vector<double>();
+    bytes.put(static_cast<int>(hull.size()));
+    for (const double value : hull)
+      bytes.put(value);
   }
   const int head[] = {restart_mark, static_cast<int>(bytes.data.size()), ~static_cast<int>(bytes.data.size())};
   const int size = static_cast<int>(sizeof head + bytes.data.size());
@@ -342,9 +348,20 @@ bool FixClusterBodies::read_shapes(const char* data, int size) {
     possible = possible && positive(properties.volume) && positive(properties.surface) &&
                properties.inertia_per_mass.diagonal().allFinite() &&
                properties.inertia_per_mass.diagonal().minCoeff() > 0;
+    std::vector<double> hull(bytes.count(sizeof(double)));
+    for (double& value : hull)
+      value = bytes.get<double>();
     if (!bytes.good() || !possible)
       return false;
-    shapes_.add(shape::ClusterShape(name, std::move(spheres), properties));
+    if (hull.empty()) {
+      shapes_.add(shape::ClusterShape(name, std::move(spheres), properties));
+      continue;
+    }
+    try {
+      shapes_.add(shape::ClusterShape(shape::hull_of_record(name, hull)));
+    } catch (const std::invalid_argument&) {
+      return false;
+    }
   }
   return bytes.at_end();
 }

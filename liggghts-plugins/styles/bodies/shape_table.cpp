@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table of shapes of a scene.
+#include "shape/rounded_hull.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 
 namespace eccentra::styles {
@@ -12,6 +13,8 @@ bool same_shape(const shape::ClusterShape& a, const shape::ClusterShape& b) {
   if (a.name() != b.name() || a.spheres().size() != b.spheres().size())
     return false;
   const double scale = tolerance * a.bounding_radius();
+  if (!a.hull() != !b.hull() || (a.hull() && std::abs(a.hull()->contact_radius() - b.hull()->contact_radius()) > scale))
+    return false;
   for (std::size_t k = 0; k < a.spheres().size(); ++k)
     if ((a.spheres()[k].centre - b.spheres()[k].centre).norm() > scale ||
         std::abs(a.spheres()[k].radius - b.spheres()[k].radius) > scale)

@@ -5,6 +5,7 @@
 #include "styles/pairs/pair_gran_cluster.h"
 
 #include "contact/stock_contact_keywords.h"
+#include "styles/bodies/hull_contacts.h"
 #include "styles/bodies/fix_sleep_cluster.h"
 #include "styles/bodies/restart_version.h"
 #include "styles/entry/style_registry.h"
@@ -157,6 +158,9 @@ void PairGranCluster::init_granular() {
                          " sub-spheres at its surface; contacts can number at most " +
                          std::to_string(contact::max_surface_spheres - 1) + ": use a coarser shape")
                             .c_str());
+  for (int id = 0; id < bodies_->shapes().size() && !hulls_; ++id)
+    if (bodies_->shapes().surface(id).hull)
+      hulls_ = std::make_unique<HullContacts>();
   FixClusterHistory& history = FixClusterHistory::require(lmp);
   all_records_ = &contact_records(lmp);
   if (!near_)

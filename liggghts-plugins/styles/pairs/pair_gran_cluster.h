@@ -18,7 +18,13 @@
 #include <memory>
 #include <vector>
 
+namespace eccentra::contact {
+struct Contact;
+}
+
 namespace eccentra::styles {
+
+class HullContacts;
 
 /// How several contacts of the same two bodies share damping.
 enum class ContactSharing { shared, parallel };
@@ -84,6 +90,16 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   void may_idle(int number, const double* offset, double gap);
   void search_candidates(NearPair& p, const contact::RelativePose& pose, const double* offset);
 
+  // Pairs with a rounded body (pair_gran_cluster_hulls.cpp).
+  void wait_hulls(int number, const NearPair& p, const contact::Double4& to_b);
+  float search_features(const NearPair& p, const double* offset, float skin);
+  void evaluate_hulls();
+  void evaluate_large_hull(WaitingPair& pair, const contact::Contact* contacts, int count, int real);
+  template <class Block>
+  void add_hull_pair(Block& block, WaitingPair& waiting, const contact::Contact* contacts, int count);
+  template <class Block> void finish_hull_block(Block& block);
+  void add_corrections();
+
   // Pairs that rest (pair_gran_cluster_rest.cpp).
   void rest();
   RestingPairs::Kept evaluate_alone(int n);
@@ -95,11 +111,12 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   template <class Block> void evaluate_waiting(Block& block);
   template <class Block> void find_contacts(Block& block);
   template <class Block> void find_contacts_of_spheres(Block& block);
+  template <bool known_geometry, class Block> void finish_block(Block& block);
   template <class Block> void add_pair(Block& block, const WaitingPair& waiting, int first);
   template <class Block> void fill_materials(Block& block, const WaitingPair& waiting, int first, int number);
   void fill_inertia(const WaitingPair& waiting, int number);
   template <class Block> void recall_history(Block& block);
-  template <contact::DampingLaw law, class Block> void compute_block(Block& block, int padded);
+  template <contact::DampingLaw law, bool known_geometry, class Block> void compute_block(Block& block, int padded);
   template <class Block> void share_damping(Block& block, int padded);
   template <class Block> void write_down(const Block& block);
   template <class Forces> void scatter(int pair, const Forces& forces);
@@ -107,6 +124,7 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   ClusterContactKeywords arguments_;
   FixClusterBodies* bodies_ = nullptr;
   std::unique_ptr<NearPairs> near_;
+  std::unique_ptr<HullContacts> hulls_;   ///< null unless a shape is a rounded body
   std::unique_ptr<RestingPairs> resting_; ///< null unless bodies may sleep
   contact::CandidateSearch search_;
   std::vector<int> hits_;

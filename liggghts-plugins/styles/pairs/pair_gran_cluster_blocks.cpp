@@ -3,6 +3,7 @@
 // Contacts of pair_style gran/cluster in blocks: exact overlaps, history, damping, forces on bodies. Loops whose length
 // differs from pair to pair cost a wrong guess of the processor each: where they can, loops run over whole blocks.
 #include "contact/shared_contacts.h"
+#include "styles/bodies/hull_contacts.h"
 #include "styles/pairs/pair_gran_cluster.h"
 
 #include "atom.h"
@@ -52,6 +53,8 @@ void PairGranCluster::evaluate_large() {
 void PairGranCluster::evaluate_waiting() {
   if (waiting_.count() > 0)
     evaluate_waiting(block_);
+  else if (hulls_)
+    evaluate_hulls();
 }
 
 /// Finds the contacts of all pairs that wait, and adds their forces.
@@ -77,23 +80,35 @@ template <class Block> void PairGranCluster::evaluate_waiting(Block& c) {
     first = pair.last_contact;
   }
   waiting_.clear();
-  if (filled_ == 0)
-    return;
+  single_contacts_ = spheres;
+  if (filled_ > 0)
+    finish_block<false>(c);
+}
+
+/// Forces of the pairs in the block; `known_geometry`: normals, overlaps and contact radii are in it.
+template <bool known_geometry, class Block> void PairGranCluster::finish_block(Block& c) {
+  if (known_geometry)
+    single_contacts_ = false;
+  const bool spheres = single_contacts_;
   const int padded = whole_vectors(filled_);
   for (int m = filled_; m < padded; ++m) {
     // A harmless contact in the unused lanes.
     c.separation[0][m] = 1;
     c.separation[1][m] = c.separation[2][m] = 0;
     c.radius_a[m] = c.radius_b[m] = 1;
+    if (known_geometry) {
+      c.overlap[m] = c.contact_radius[m] = 0;
+      for (int k = 0; k < 3; ++k)
+        c.normal[k][m] = c.arm[k][m] = 0;
+    }
     for (int k = 0; k < 3; ++k)
       c.history[k][m] = 0;
   }
   recall_history(c);
-  single_contacts_ = spheres;
   if (arguments_.damping == contact::DampingLaw::stock)
-    compute_block<contact::DampingLaw::stock>(c, padded);
+    compute_block<contact::DampingLaw::stock, known_geometry>(c, padded);
   else
-    compute_block<contact::DampingLaw::paper>(c, padded);
+    compute_block<contact::DampingLaw::paper, known_geometry>(c, padded);
   if (records_)
     write_down(c);
   ContactList& next = near_->next;
@@ -106,6 +121,8 @@ template <class Block> void PairGranCluster::evaluate_waiting(Block& c) {
     return;
   }
   contact::add_contact_forces(c, block_pair_.data(), filled_, pairs_, pairs_in_block_);
+  if (known_geometry)
+    add_corrections();
   for (int n = 0; n < pairs_in_block_; ++n)
     scatter(n, pairs_);
 }
@@ -290,8 +307,10 @@ template <class Block> void PairGranCluster::recall_history(Block& c) {
   }
 }
 
-template <contact::DampingLaw law, class Block> void PairGranCluster::compute_block(Block& block, int padded) {
-  contact::contact_geometry(block, padded);
+template <contact::DampingLaw law, bool known_geometry, class Block>
+void PairGranCluster::compute_block(Block& block, int padded) {
+  if (!known_geometry)
+    contact::contact_geometry(block, padded);
   if (arguments_.sharing == ContactSharing::shared) {
     if (single_contacts_)
       std::fill_n(&block.share[0], padded, 1.);
@@ -350,5 +369,10 @@ template <class Forces> void PairGranCluster::scatter(int pair, const Forces& fo
   if (evflag)
     ev_tally_xyz(p.a, p.b, atom->nlocal, 0, 0., 0., fx, fy, fz, -d[0], -d[1], -d[2]);
 }
+
+template void PairGranCluster::finish_block<true>(contact::ContactBlock& block);
+template void PairGranCluster::finish_block<true>(contact::LargeContactBlock& block);
+template void PairGranCluster::add_pair(contact::ContactBlock& block, const WaitingPair& waiting, int first);
+template void PairGranCluster::add_pair(contact::LargeContactBlock& block, const WaitingPair& waiting, int first);
 
 } // namespace eccentra::styles

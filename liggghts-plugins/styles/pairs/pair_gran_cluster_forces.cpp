@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The loop of pair_style gran/cluster over pairs of bodies: which need a look, and which of their sub-spheres may
 // touch.
+#include "styles/bodies/hull_contacts.h"
 #include "styles/pairs/pair_gran_cluster.h"
 
 #include "atom.h"
@@ -39,6 +40,10 @@ constexpr double round_off = 1e-6;
 /// So many pairs ahead data are asked for.
 constexpr int prefetched_ahead = 8;
 
+bool has_hull(const NearPair& p) {
+  return p.surface_a->hull || p.surface_b->hull;
+}
+
 } // namespace
 
 void PairGranCluster::compute_force(int eflag, int vflag, int addflag) {
@@ -60,6 +65,8 @@ void PairGranCluster::compute_force(int eflag, int vflag, int addflag) {
   near_count_ = 0;
   one_kind_ = false; // kinds are numbered anew with each list, and properties may change
   near.update_bodies(path_safety * update->dt, freeze_group_bit());
+  if (hulls_)
+    hulls_->begin_step(near.body_count());
   records_ = all_records_->wanted(update->ntimestep) ? all_records_ : nullptr;
   if (records_) {
     records_->begin(update->ntimestep);
@@ -93,6 +100,8 @@ void PairGranCluster::compute_force(int eflag, int vflag, int addflag) {
 /// Lets a pair wait with its `count` possible contacts, and evaluates all that wait once they are enough.
 inline void PairGranCluster::wait(int number, const NearPair& p, const contact::Double4& to_b, const int* ids,
                                   int count, bool may_idle) {
+  if (hulls_)
+    evaluate_hulls(); // contacts are noted in the order of the pairs
   if (!waiting_.has_room(count))
     evaluate_waiting();
   WaitingPair& pair = waiting_.add(p.direct(), ids, count);
@@ -126,6 +135,10 @@ void PairGranCluster::look_at(int number, bool fresh) {
   if (p.candidate_count == 0)
     return;
   ++near_count_;
+  if (hulls_ && has_hull(p)) {
+    wait_hulls(number, p, to_b);
+    return;
+  }
   if (p.candidate_count <= tested_at_once)
     wait(number, p, to_b, near_->candidates.at(p.candidate_first), p.candidate_count, true);
   else if (const int hits = preselect(number, p, offset); hits > 0)
@@ -209,7 +222,14 @@ void PairGranCluster::search_candidates(NearPair& p, const contact::RelativePose
   const float skin =
       static_cast<float>(std::clamp(skin_steps * motion, skin_narrowest * smallest, skin_widest * smallest));
   const float margin = static_cast<float>(2 * round_off * p.range());
-  const contact::SearchResult found = search_.search(*p.surface_a, extra_a, *p.surface_b, extra_b, pose, skin + margin);
+  const bool hull = hulls_ && has_hull(p);
+  contact::SearchResult found;
+  if (hull) {
+    found.slack = search_features(p, offset, skin + margin);
+    found.count = static_cast<int>(hulls_->search.found().size());
+  } else {
+    found = search_.search(*p.surface_a, extra_a, *p.surface_b, extra_b, pose, skin + margin);
+  }
   if (p.search == NearPair::not_yet) {
     std::vector<PairSearch>& searches = near_->searches;
     p.search = static_cast<int>(searches.size());
@@ -226,7 +246,8 @@ void PairGranCluster::search_candidates(NearPair& p, const contact::RelativePose
     search.candidate_room = found.count + found.count / 4 + 1;
     p.candidate_first = store.reserve(search.candidate_room);
   }
-  std::copy(search_.found().begin(), search_.found().end(), store.at(p.candidate_first));
+  const std::vector<int>& ids = hull ? hulls_->search.found() : search_.found();
+  std::copy(ids.begin(), ids.end(), store.at(p.candidate_first));
 }
 
 } // namespace eccentra::styles
