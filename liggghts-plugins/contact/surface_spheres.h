@@ -39,4 +39,9 @@ struct SurfaceSpheres {
   void finish();
 };
 
+/// Radius with which a contact of this body enters Hertz's law [m], where its own radius is `radius`.
+inline double hertz_radius(const SurfaceSpheres& surface, double extra, double radius) {
+  return surface.hull ? surface.core.contact_radius + extra : radius;
+}
+
 } // namespace eccentra::contact

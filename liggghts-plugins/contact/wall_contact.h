@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
+
 namespace eccentra::contact {
 
 /// World frame, SI. Vectors that start at the body's centre are free of periodic images.
@@ -24,6 +26,11 @@ struct WallTouch {
   double share;                  ///< of stiffness and damping
   int wall_type;                 ///< material
   int triangle;                  ///< local index in the mesh of key.mesh(); -1 for primitive walls
+  double weight = 1;             ///< of a rounded body's spring; negative: an elastic correction
+  double hertz_radius = 0;       ///< in Hertz's law, where it is not the sphere's
+
+  /// What Hertz's law makes of the overlap: a = w sqrt(R overlap) [m].
+  double contact_radius() const { return weight * std::sqrt((hertz_radius > 0 ? hertz_radius : radius) * overlap); }
 };
 
 } // namespace eccentra::contact

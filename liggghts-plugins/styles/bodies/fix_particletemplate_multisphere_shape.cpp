@@ -129,6 +129,10 @@ Fix* create(LAMMPS* lmp, int narg, char** arg) {
     if (used != parts.shape.size())
       throw std::invalid_argument("unknown word '" + parts.shape[used] + "' after the shape");
     styles::print_notes(lmp, where.substr(0, where.size() - 2), notes);
+    if (shape.hull())
+      throw std::invalid_argument("shape '" + shape.name() +
+                                  "' is a rounded body, which fix multisphere does not know; expected spheres: use "
+                                  "particletemplate/cluster");
     if (shape.spheres().size() < 2)
       throw std::invalid_argument("shape '" + shape.name() +
                                   "' is one sphere, which fix multisphere does not take: use particletemplate/sphere");

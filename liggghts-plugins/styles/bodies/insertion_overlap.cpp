@@ -3,6 +3,7 @@
 // Narrow-phase overlap tests of clusters under insertion.
 #include "styles/bodies/insertion_overlap.h"
 
+#include "contact/gjk.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/entry/private_access.h"
 
@@ -45,12 +46,31 @@ std::vector<shape::Sphere> spheres_within(const PlacedBody& body, const Eigen::V
   return within;
 }
 
+/// The distance of the true surfaces, at least one of which is a rounded body's.
+bool hulls_touch(const PlacedBody& a, const PlacedBody& b, const Eigen::Vector3d& offset) {
+  contact::PosedCore hull, other;
+  if (a.surface && b.surface) {
+    hull.pose(a.surface->core, a.turn);
+    other.pose(b.surface->core, b.turn);
+    return contact::gjk_distance(hull, other, offset) <= a.surface->core.radius + b.surface->core.radius;
+  }
+  const PlacedBody &rounded = a.surface ? a : b, &spheres = a.surface ? b : a;
+  hull.pose(rounded.surface->core, rounded.turn);
+  const Eigen::Vector3d to_spheres = a.surface ? offset : Eigen::Vector3d(-offset);
+  return std::any_of(spheres.spheres->begin(), spheres.spheres->end(), [&](const shape::Sphere& s) {
+    return contact::distance_to(hull, to_spheres + spheres.turn * s.centre).distance <=
+           rounded.surface->core.radius + s.radius;
+  });
+}
+
 } // namespace
 
 bool bodies_touch(const PlacedBody& a, const PlacedBody& b, const Eigen::Vector3d& offset) {
   const double range = a.bounding_radius + b.bounding_radius;
   if (offset.squaredNorm() > range * range)
     return false;
+  if (a.surface || b.surface)
+    return hulls_touch(a, b, offset);
   const std::vector<shape::Sphere> of_a = spheres_within(a, a.turn.transpose() * offset, b.bounding_radius);
   const std::vector<shape::Sphere> of_b = spheres_within(b, b.turn.transpose() * -offset, a.bounding_radius);
   const Eigen::Matrix3d b_to_a = a.turn.transpose() * b.turn;
@@ -96,8 +116,9 @@ PlacedBody InsertionOverlap::body(int shape_id, const double* quaternion) const 
   const shape::ClusterShape& shape = bodies_.shapes()[shape_id];
   double turn[9];
   contact::rotation_matrix(quaternion, turn);
+  const contact::SurfaceSpheres& surface = bodies_.shapes().surface(shape_id);
   return {&shape.spheres(), shape.bounding_radius(),
-          Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(turn)};
+          Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(turn), surface.hull ? &surface : nullptr};
 }
 
 void InsertionOverlap::take_atoms() {

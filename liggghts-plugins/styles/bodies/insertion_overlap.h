@@ -3,6 +3,7 @@
 // Overlap tests while stock fix insert/* places clusters: sub-sphere against sub-sphere instead of bounding spheres.
 #pragma once
 
+#include "contact/surface_spheres.h"
 #include "shape/cluster_shape.h"
 
 #include <Eigen/Core>
@@ -24,12 +25,14 @@ enum class InsertionOrientation { not_written, random, fixed };
 
 /// A body at its place. All its sub-spheres count, inner ones too: nothing may be put inside a body.
 struct PlacedBody {
-  const std::vector<shape::Sphere>* spheres; ///< body frame [m]
-  double bounding_radius;                    ///< about the centre [m]
-  Eigen::Matrix3d turn;                      ///< body to world
+  const std::vector<shape::Sphere>* spheres;        ///< body frame [m]
+  double bounding_radius;                           ///< about the centre [m]
+  Eigen::Matrix3d turn;                             ///< body to world
+  const contact::SurfaceSpheres* surface = nullptr; ///< of a rounded body
 };
 
-/// True if any sub-sphere of A touches one of B, whose centre is at `offset` from A's [m], world frame.
+/// True if any sub-sphere of A touches one of B, or the true surfaces where one is a rounded body, whose centre is at
+/// `offset` from A's [m], world frame.
 bool bodies_touch(const PlacedBody& a, const PlacedBody& b, const Eigen::Vector3d& offset);
 
 /// The deepest overlap of their sub-spheres, as part of the smaller one's radius; 0 where none touches.

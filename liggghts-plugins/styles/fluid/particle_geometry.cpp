@@ -4,6 +4,7 @@
 #include "styles/fluid/particle_geometry.h"
 
 #include "shape/resistance_cache.h"
+#include "shape/rounded_hull.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 
 #include <mpi.h>
@@ -77,13 +78,14 @@ double ParticleGeometry::crosswise_sphericity(int i, const double* direction) co
   if (id < 0)
     return 1.0;
   const shape::ClusterShape& cluster = bodies_->shapes()[id];
-  if (!areas_[id])
+  const shape::RoundedHull* hull = cluster.hull();
+  if (!hull && !areas_[id])
     areas_[id] = std::make_unique<closures::ProjectedAreaTable>(cluster.spheres());
   const double* q = bodies_->quaternion(i);
   const Eigen::Vector3d world(direction[0], direction[1], direction[2]);
   const Eigen::Vector3d body = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * world;
   const double radius = cluster.equivalent_radius();
-  return closures::kPi * radius * radius / areas_[id]->at(body);
+  return closures::kPi * radius * radius / (hull ? hull->projected_area(body) : areas_[id]->at(body));
 }
 
 // Rank 0 solves or reads, so that all ranks have the same digits and one of them writes the cache.
@@ -104,7 +106,9 @@ const closures::OrientedShape* ParticleGeometry::oriented(int kind) const {
     const double d = 2.0 * cluster.equivalent_radius();
     oriented_[id] = std::make_unique<closures::OrientedShape>(closures::oriented_shape(
         resistance, cluster.inertia_per_mass() / (d * d), [&](const Eigen::Vector3d& direction) {
-          return closures::projected_area(cluster.spheres(), direction) / (d * d);
+          return (cluster.hull() ? cluster.hull()->projected_area(direction)
+                                 : closures::projected_area(cluster.spheres(), direction)) /
+                 (d * d);
         }));
   }
   return oriented_[id].get();

@@ -4,6 +4,8 @@
 #include "styles/pairs/fix_timestep_limit.h"
 
 #include "base/eigen_views.h"
+#include "contact/feature_search.h"
+#include "contact/manifold.h"
 #include "contact/shared_contacts.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/entry/host_terminal.h"
@@ -167,7 +169,28 @@ void FixTimestepLimit::add_pair(int i, int j, std::vector<contact::BodyStiffness
   const double mass = atom->rmass[i] * atom->rmass[j] / (atom->rmass[i] + atom->rmass[j]);
   touching_.clear();
   contact::SharedStiffness all;
-  for (int p = 0; p < a.count; ++p) {
+  if (a.hull || b.hull) {
+    contact::PosedCore posed_a, posed_b;
+    posed_a.pose(a.core, ra);
+    posed_b.pose(b.core, rb);
+    const contact::BodyPair pair{{&posed_a, extra_of(i)}, {&posed_b, extra_of(j)}, apart};
+    contact::FeatureSearch search;
+    search.search(pair, 0);
+    contact::Manifolds manifolds;
+    manifolds.add(pair, search.found().data(), static_cast<int>(search.found().size()));
+    manifolds.evaluate();
+    for (const contact::Contact& c : manifolds.contacts()) {
+      if (c.elastic)
+        continue;
+      const double radius_a = contact::hertz_radius(a, extra_of(i), c.radius_a),
+                   radius_b = contact::hertz_radius(b, extra_of(j), c.reach - c.radius_a);
+      const double radius = c.weight * c.weight * radius_a * radius_b / (radius_a + radius_b); // a = w sqrt(R overlap)
+      const contact::ContactStiffness contact = stiffness(atom->type[i], atom->type[j], radius, c.overlap(), mass);
+      touching_.push_back({contact, c.normal, c.contact_point(), c.contact_point() - apart});
+      all.add(contact.normal, c.overlap(), c.normal.x(), c.normal.y(), c.normal.z());
+    }
+  }
+  for (int p = 0; p < a.count && !a.hull && !b.hull; ++p) {
     const double radius_a = a.r[p] + extra_of(i);
     const Eigen::Vector3d arm_a = ra * Eigen::Vector3d(a.x[p], a.y[p], a.z[p]);
     if ((apart - arm_a).norm() >= radius_a + atom->radius[j])
@@ -220,8 +243,11 @@ void FixTimestepLimit::add_wall_contacts(std::vector<contact::BodyStiffness>& bo
       continue;
     wall->for_each_touch([&](const contact::WallTouch& touch) {
       const int i = touch.atom;
+      if (touch.weight <= 0)
+        return;
+      const double radius = touch.contact_radius() * touch.contact_radius() / touch.overlap;
       contact::ContactStiffness contact =
-          stiffness(atom->type[i], touch.wall_type, touch.radius, touch.overlap, atom->rmass[i]);
+          stiffness(atom->type[i], touch.wall_type, radius, touch.overlap, atom->rmass[i]);
       contact.normal_damping *= touch.share;
       contact.tangential_damping *= touch.share;
       bodies[i].add(contact, touch.normal, touch.lever, kWallRests);
@@ -266,7 +292,11 @@ FixTimestepLimit::Limit FixTimestepLimit::limit_of_impacts() {
     return limit;
   for (int i = 0; i < atom->nlocal; ++i) {
     const int shape = bodies_ ? bodies_->shape_id(i) : -1;
-    const double radius = shape >= 0 ? bodies_->shapes().surface(shape).smallest_radius : atom->radius[i];
+    double radius = atom->radius[i];
+    if (shape >= 0) {
+      const contact::SurfaceSpheres& surface = bodies_->shapes().surface(shape);
+      radius = contact::hertz_radius(surface, 0, surface.smallest_radius);
+    }
     const int type = atom->type[i];
     // Two like bodies: half the mass, half the radius. The stiffness grows with the 1/5 power of the speed only.
     const double mass = atom->rmass[i] / 2;

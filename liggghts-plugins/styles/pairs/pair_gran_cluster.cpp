@@ -5,10 +5,10 @@
 #include "styles/pairs/pair_gran_cluster.h"
 
 #include "contact/stock_contact_keywords.h"
-#include "styles/bodies/hull_contacts.h"
 #include "styles/bodies/fix_sleep_cluster.h"
 #include "styles/bodies/restart_version.h"
 #include "styles/entry/style_registry.h"
+#include "styles/pairs/hull_contacts.h"
 
 #include "atom.h"
 #include "comm.h"

@@ -3,7 +3,7 @@
 // Contacts of pair_style gran/cluster in blocks: exact overlaps, history, damping, forces on bodies. Loops whose length
 // differs from pair to pair cost a wrong guess of the processor each: where they can, loops run over whole blocks.
 #include "contact/shared_contacts.h"
-#include "styles/bodies/hull_contacts.h"
+#include "styles/pairs/hull_contacts.h"
 #include "styles/pairs/pair_gran_cluster.h"
 
 #include "atom.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The loop of pair_style gran/cluster over pairs of bodies: which need a look, and which of their sub-spheres may
 // touch.
-#include "styles/bodies/hull_contacts.h"
+#include "styles/pairs/hull_contacts.h"
 #include "styles/pairs/pair_gran_cluster.h"
 
 #include "atom.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pairs of pair_style gran/cluster with a rounded body: features instead of sub-spheres, manifolds instead of the exact
 // test, then the same law, history and sharing.
-#include "styles/bodies/hull_contacts.h"
+#include "styles/pairs/hull_contacts.h"
 #include "styles/pairs/pair_gran_cluster.h"
 
 #include "error.h"

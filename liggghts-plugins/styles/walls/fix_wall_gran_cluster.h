@@ -100,6 +100,8 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   void find_touches(int i);
   void collect_primitive(int i);
   void collect_mesh(int i);
+  /// The same for a rounded body at a primitive wall.
+  void collect_hull(int i, const contact::SurfaceSpheres& spheres, const Eigen::Matrix3d& rotation);
   /// History with which a contact of this atom goes on: its own, or that of a coplanar triangle before.
   contact::WallHistoryEntry old_entry(int i, const contact::WallTouch& touch) const;
   /// Hands the contacts their entries of the last step, or new ones.
@@ -165,6 +167,8 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   bool near_list_stale_ = true;
   std::vector<contact::WallTouch> touches_; ///< of the particles at hand
   std::vector<double> gaps_;                ///< of the sub-spheres of the particle at hand
+  contact::PosedCore posed_;                ///< of the rounded body at hand
+  std::vector<contact::Contact> hull_contacts_;
   std::unique_ptr<contact::ContactBlock> block_;
   ContactRecords* all_records_ = nullptr;
   ContactRecords* records_ = nullptr;          ///< null in steps whose contacts no output wants

@@ -29,6 +29,10 @@ void FixWallGranCluster::cluster_forces() {
     const contact::SurfaceSpheres& spheres = bodies_->shapes().surface(bodies_->shape_id(i));
     if (hits_.size() < static_cast<std::size_t>(spheres.padded))
       hits_.resize(spheres.padded);
+    if (spheres.hull) {
+      collect(i);
+      continue;
+    }
     int count = 0;
     if (contact::nearest(wall, atom->x[i], normal, from) < atom->radius[i]) // of the bounding sphere
       count = contact::spheres_at_wall(wall, from, bodies_->rotation(i), spheres, hits_.data());

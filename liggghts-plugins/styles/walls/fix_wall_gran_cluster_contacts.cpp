@@ -7,6 +7,7 @@
 #include "contact/impact_mass.h"
 #include "contact/shared_contacts.h"
 #include "contact/wall_gaps.h"
+#include "contact/wall_manifold.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 
 #include "atom.h"
@@ -98,7 +99,7 @@ void FixWallGranCluster::share_damping(int i, std::size_t first) {
     return;
   // Within one fix the particle's material is one; walls of several materials weigh by their modulus.
   const auto stiffness = [&](const contact::WallTouch& touch) {
-    return youngs_[atom->type[i]][touch.wall_type] * std::sqrt(touch.radius * touch.overlap);
+    return youngs_[atom->type[i]][touch.wall_type] * std::max(0., touch.contact_radius());
   };
   if (share_damping_of_one_normal(i, first, stiffness))
     return;
@@ -143,6 +144,10 @@ void FixWallGranCluster::collect_primitive(int i) {
     return;
   const contact::SurfaceSpheres& spheres = bodies_->shapes().surface(bodies_->shape_id(i));
   const Eigen::Matrix3d rotation = base::row_major(bodies_->rotation(i));
+  if (spheres.hull) {
+    collect_hull(i, spheres, rotation);
+    return;
+  }
   gaps_.resize(spheres.count);
   contact::wall_gaps(surface, x, rotation, spheres, gaps_.data());
   for (int k = 0; k < spheres.count; ++k)
@@ -150,6 +155,28 @@ void FixWallGranCluster::collect_primitive(int i) {
       const Eigen::Vector3d arm = rotation * Eigen::Vector3d(spheres.x[k], spheres.y[k], spheres.z[k]);
       touch(k, arm, spheres.r[k], surface.nearest(x + arm));
     }
+}
+
+void FixWallGranCluster::collect_hull(int i, const contact::SurfaceSpheres& spheres, const Eigen::Matrix3d& rotation) {
+  const contact::WallSurface& surface = *arguments_.surface;
+  const Eigen::Vector3d x = base::vector3(atom->x[i]);
+  posed_.pose(spheres.core, rotation);
+  hull_contacts_.clear();
+  const contact::ContactBody body{&posed_};
+  const contact::WallPoint centre = surface.nearest(x);
+  if (surface.is_plane()) {
+    contact::plane_contacts(body, centre.normal, centre.distance, hull_contacts_);
+  } else {
+    const contact::CylinderWall wall{surface.reference() - x, surface.direction(), surface.radius()};
+    const bool outside = centre.normal.dot(x - surface.reference()) > 0;
+    (outside ? contact::pipe_contacts : contact::hole_contacts)(body, wall, hull_contacts_);
+  }
+  for (const contact::Contact& c : hull_contacts_) {
+    const Eigen::Vector3d to_wall = c.arm - c.distance * c.normal;
+    touches_.push_back({i, nullptr, contact::WallContactKey(c.id, 0, 0), c.normal, c.contact_point(), to_wall,
+                        surface.velocity_at(x + to_wall), surface.angular_velocity(), c.overlap(), c.radius_a, 1.0,
+                        arguments_.type, -1, c.weight, spheres.core.contact_radius});
+  }
 }
 
 void FixWallGranCluster::collect_mesh(int i) {

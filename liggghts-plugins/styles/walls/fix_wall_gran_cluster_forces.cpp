@@ -30,7 +30,7 @@ void FixWallGranCluster::fill(int m, const contact::WallTouch& touch) {
   }
   block.radius_a[m] = touch.radius;
   block.overlap[m] = touch.overlap;
-  block.contact_radius[m] = std::sqrt(touch.radius * touch.overlap);
+  block.contact_radius[m] = std::max(0., touch.contact_radius());
   block.mass[m] = atom->rmass[i];
   block.youngs[m] = youngs_[type][touch.wall_type];
   block.shear_modulus[m] = shear_[type][touch.wall_type];
@@ -66,8 +66,12 @@ void FixWallGranCluster::scatter(int m, const contact::WallTouch& touch) {
     return Eigen::Vector3d(rows[0][m], rows[1][m], rows[2][m]);
   };
   touch.history->shear = row(block.history);
-  const Eigen::Vector3d force = row(block.force);
-  Eigen::Vector3d torque = row(block.torque);
+  Eigen::Vector3d force = row(block.force), torque = row(block.torque);
+  if (touch.weight < 0) {
+    const Eigen::Vector3d correction = 4. / 3 * block.youngs[m] * touch.contact_radius() * touch.overlap * touch.normal;
+    force += correction;
+    torque += touch.lever.cross(correction);
+  }
   if (arguments_.rolling && is_plain_sphere(i))
     torque += rolling_torque(m, i, touch.wall_type, touch.wall_omega, *touch.history);
   base::add(atom->f[i], force);

@@ -65,9 +65,4 @@ class HullContacts {
   int step_ = 0;
 };
 
-/// Radius with which a contact of this body enters Hertz's law [m], where its own radius is `radius`.
-inline double hertz_radius(const contact::SurfaceSpheres& surface, double extra, double radius) {
-  return surface.hull ? surface.core.contact_radius + extra : radius;
-}
-
 } // namespace eccentra::styles
