@@ -148,6 +148,14 @@ void FixWallGranCluster::init() {
       if (bodies_->shapes().surface(id).count > contact::WallContactKey::kMaxSubSpheres)
         fail("shape '" + bodies_->shapes()[id].name() + "' has more than " +
              std::to_string(contact::WallContactKey::kMaxSubSpheres) + " surface sub-spheres: use fewer");
+  if (meshes_ && bodies_)
+    for (int id = 0; id < bodies_->shapes().size(); ++id)
+      if (bodies_->shapes().surface(id).hull && comm->me == 0)
+        error->warning(FLERR, ("fix " + std::string(this->id) + " wall/gran/cluster: the rounded body '" +
+                               bodies_->shapes()[id].name() +
+                               "' touches meshes at its vertices alone: edges and corners of a mesh that stand out pass "
+                               "through its faces and edges")
+                                  .c_str());
   near_list_stale_ = true;
 }
 
