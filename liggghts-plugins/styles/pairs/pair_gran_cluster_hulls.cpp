@@ -77,10 +77,11 @@ void PairGranCluster::evaluate_hulls() {
     }
     const NearPair& near = near_->pairs[pair.number];
     if (hulls.manifolds.sunk(n) > kMaxSunk * std::min(near.bound_a(), near.bound_b()))
-      error->one(FLERR, "pair_style gran/cluster: the bodies " + std::to_string(near.tag_a) + " and " +
-                            std::to_string(near.tag_b) +
-                            " have run into each other by most of their size: use a smaller time step (see fix "
-                            "timestep/limit) or a larger Young's modulus");
+      error->one(FLERR, ("pair_style gran/cluster: the bodies " + std::to_string(near.tag_a) + " and " +
+                         std::to_string(near.tag_b) +
+                         " have run into each other by most of their size: use a smaller time step (see fix "
+                         "timestep/limit) or a larger Young's modulus")
+                            .c_str());
     const int count = real_contacts(all, first, last);
     if (count > contact::ContactBlock::capacity) {
       finish_hull_block(block_);
