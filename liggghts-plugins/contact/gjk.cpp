@@ -137,7 +137,7 @@ double distance_by_projections(const PosedCore& a, const PosedCore& b, const Vec
 
 double gjk_distance(const PosedCore& a, const PosedCore& b, const Vector3d& offset) {
   constexpr int limit = 200; // polyhedra take 4 to 7, two smooth rims 20
-  constexpr double tolerance = 1e-14;
+  constexpr double tolerance = 1e-14, closed = 1e-9;
   const double size = a.core->bound + b.core->bound;
   Simplex simplex;
   Vector3d v = -offset;
@@ -154,14 +154,16 @@ double gjk_distance(const PosedCore& a, const PosedCore& b, const Vector3d& offs
     simplex.add(w);
     const Vector3d next = simplex.closest();
     const double square = next.squaredNorm();
-    if (simplex.count == 4 || square <= tolerance * tolerance * size * size)
+    if (simplex.count == 4 || square <= tolerance * tolerance * size * size) {
+      if (at_least > closed * size)
+        break; // a plane separates them: the tetrahedron is too flat to tell
       return 0;
+    }
     if (square >= best)
       break; // round-off
     best = square;
     v = next;
   }
-  constexpr double closed = 1e-9;
   const double distance = v.norm();
   if (distance - at_least < closed * size || a.core->solid == SolidKind::none || b.core->solid == SolidKind::none)
     return distance;
