@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The point of an arc of a disk's rim that is closest to something.
+// The points of an arc of a disk's rim that are closest to something, or farthest from it.
 #pragma once
 
 #include "contact/contact_core.h"
@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <vector>
 
 namespace eccentra::contact {
 
@@ -31,7 +32,8 @@ struct RimPoint {
 };
 
 /// The closest point between two angles, at the first of which the distance falls and at the second of which it rises:
-/// the root of its slope, by the Illinois method. `slope_low` < 0 < `slope_high`.
+/// the root of its slope, by the Illinois method. `slope_low` < 0 < `slope_high`. With `low` > `high` the farthest
+/// point.
 template <typename Distance>
 RimPoint closest_on_arc(const Rim& rim, double low, double slope_low, double high, double slope_high,
                         const Distance& distance) {
@@ -44,7 +46,7 @@ RimPoint closest_on_arc(const Rim& rim, double low, double slope_low, double hig
     best.point = rim.at(angle);
     best.at = distance(best.point);
     const double slope = best.at.normal.dot(rim.tangent(angle)) / rim.x.norm();
-    if (std::abs(slope) < precision || high - low < precision)
+    if (std::abs(slope) < precision || std::abs(high - low) < precision)
       break;
     if (slope < 0) {
       low = angle;
@@ -61,6 +63,33 @@ RimPoint closest_on_arc(const Rim& rim, double low, double slope_low, double hig
     }
   }
   return best;
+}
+
+/// A point at which the distance along an arc is least, or greatest.
+struct ArcExtreme {
+  RimPoint point;
+  bool closest;
+};
+
+/// Adds all of them between two angles, in order, as far as they can be told apart in so many equal pieces of the arc.
+template <typename Distance>
+void extremes_on_arc(const Rim& rim, double low, double slope_low, double high, double slope_high, int pieces,
+                     const Distance& distance, std::vector<ArcExtreme>& extremes) {
+  const double step = (high - low) / pieces;
+  for (int k = 1; k <= pieces; ++k) {
+    const double next = k == pieces ? high : low + step;
+    double slope_next = slope_high;
+    if (k < pieces) {
+      slope_next = distance(rim.at(next)).normal.dot(rim.tangent(next)) / rim.x.norm();
+      slope_next = slope_next == 0 ? 1e-300 : slope_next; // a least one there belongs to one piece
+    }
+    if (slope_low < 0 && slope_next > 0)
+      extremes.push_back({closest_on_arc(rim, low, slope_low, next, slope_next, distance), true});
+    else if (slope_low >= 0 && slope_next <= 0 && slope_low - slope_next > 0)
+      extremes.push_back({closest_on_arc(rim, next, slope_next, low, slope_low, distance), false});
+    low = next;
+    slope_low = slope_next;
+  }
 }
 
 } // namespace eccentra::contact

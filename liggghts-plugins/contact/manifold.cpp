@@ -24,6 +24,10 @@ namespace {
 constexpr double same_distance = 1e-9;
 /// Edges closer than this part of their reach may have passed each other.
 constexpr double may_have_crossed = 0.25;
+/// Where an arc of a disk's rim is closest and farthest is told apart in pieces of this part of the reach, and in no
+/// more than so many.
+constexpr double resolved = 0.5;
+constexpr int max_pieces = 8;
 /// From cores that touch to this part of the reach deep, contacts turn to the least axis.
 constexpr double turning_depth = 0.25;
 
@@ -300,31 +304,46 @@ void Manifolds::take_arc(const Pair& pair, const ArcState& state, double& gap) {
   const double angle = index * step, unit = core.half.x();
   const double slope_from = normal_at(from).dot(rim.tangent(angle)) / unit,
                slope_to = normal_at(to).dot(rim.tangent(angle + step)) / unit;
-  if (!(slope_from < 0) || !(slope_to > 0))
-    return; // the end is closest
-  const RimPoint best = closest_on_arc(rim, angle, slope_from, angle + step, slope_to,
-                                       [&](const Vector3d& p) { return distance_to(*solid.posed, p + shift); });
-  gap = std::min(gap, best.at.distance - reach);
-  if (best.at.distance >= reach)
+  const auto distance = [&](const Vector3d& p) { return distance_to(*solid.posed, p + shift); };
+  const int pieces = std::clamp(static_cast<int>(std::ceil(length / (resolved * reach))), 1, max_pieces);
+  extremes_.clear();
+  extremes_on_arc(rim, angle, slope_from, angle + step, slope_to, pieces, distance, extremes_);
+  if (extremes_.empty())
+    return; // an end is closest
+  const auto energy = [&](double at) { return at < reach ? spring_energy(reach - at) : 0; };
+  const double u_from = energy(from.distance), u_to = energy(to.distance);
+  double sum = (slope_from < 0 ? 0 : u_from) + (slope_to > 0 ? 0 : u_to);
+  for (const ArcExtreme& e : extremes_) {
+    sum += (e.closest ? 1 : -1) * energy(e.point.at.distance);
+    gap = std::min(gap, e.point.at.distance - reach);
+  }
+  if (!(sum > 0))
     return;
-  const double overlap = reach - best.at.distance;
-  const HandOver<2> share(overlap, {reach - from.distance, reach - to.distance});
+  const double share = 1 - u_from / sum * (u_to / sum);
+  const double loss[2] = {1 - u_to / sum - (slope_from < 0 ? 0 : share), 1 - u_from / sum - (slope_to > 0 ? 0 : share)};
   const int touching[2] = {from.contact, to.contact};
   for (int k = 0; k < 2; ++k)
     if (touching[k] >= 0)
-      contacts_[touching[k]].weight -= share.loss[k];
-  if (share.line <= no_weight)
+      contacts_[touching[k]].weight -= loss[k];
+  if (share <= no_weight)
     return;
   const double radius_own = radius_of(own, 0), radius_a = of_b ? reach - radius_own : radius_own;
-  const Vector3d on = of_b ? Vector3d(pair.bodies.offset + best.point) : best.point;
-  const int own_feature = core.line_feature(state.arc), other = solid.posed->core->solid_feature();
-  int& closest = rim_contact_[of_b][rim_number];
-  if (closest < 0 || best.at.distance < contacts_[closest].distance)
-    closest = static_cast<int>(contacts_.size());
-  contacts_.push_back({of_b ? feature_id(other, own_feature) : feature_id(own_feature, other), false,
-                       of_b ? Vector3d(on - best.at.distance * best.at.normal) : on,
-                       of_b ? Vector3d(-best.at.normal) : best.at.normal, best.at.distance, reach, radius_a,
-                       share.line});
+  const int own_feature = core.line_feature(state.arc);
+  int other = solid.posed->core->solid_feature();
+  for (const ArcExtreme& e : extremes_) {
+    const shape::CoreDistance& at = e.point.at;
+    if (at.distance >= reach)
+      continue;
+    const Vector3d on = of_b ? Vector3d(pair.bodies.offset + e.point.point) : e.point.point;
+    int& closest = rim_contact_[of_b][rim_number];
+    if (e.closest && (closest < 0 || at.distance < contacts_[closest].distance))
+      closest = static_cast<int>(contacts_.size());
+    // Further ones on the same arc have the numbers behind the solid's.
+    contacts_.push_back({of_b ? feature_id(other, own_feature) : feature_id(own_feature, other), !e.closest,
+                         of_b ? Vector3d(on - at.distance * at.normal) : on, of_b ? Vector3d(-at.normal) : at.normal,
+                         at.distance, reach, radius_a, e.closest ? share : -share});
+    ++other;
+  }
 }
 
 /// A disk's side against an edge or another's side.

@@ -3,6 +3,7 @@
 // The contacts of pairs of rounded bodies: point contacts that cover the touching features and share one potential.
 #pragma once
 
+#include "contact/arc_minimum.h"
 #include "contact/contact_core.h"
 #include "contact/manifold_lanes.h"
 
@@ -41,11 +42,12 @@ struct BodyPair {
 ///   sum of u(distance) over the points of each body from the other's solid
 ///   + sum over pairs of edges of u_E prod_k (1 - u_k / u_E), k the four ends, u_k by their distance from the other
 ///   edge
-///   + sum over arcs of a disk's rims of u_E prod_k (1 - u_k / u_E), k the two points at its ends, all from the solid
+///   + sum over arcs of a disk's rims of u_E prod_k (1 - u_k / u_E), k the two points at its ends, all from the solid,
+///     u_E the sum over the arc's closest points less that over its farthest ones (an end may be one of the former)
 ///   + the same over pairs of lines one of which is a disk's axis, with the disk's radius, squared factors and rims as
 ///     the axis' ends.
-/// A pair of edges counts where its closest points lie inside both, an arc where its closest point lies inside. Where
-/// that point reaches an end, u_k = u_E: the product vanishes and one spring has been handed from edge to vertex.
+/// A pair of edges counts where its closest points lie inside both, an arc where its closest points lie inside. Where
+/// such a point reaches an end, u_k = u_E: the product vanishes and one spring has been handed from edge to vertex.
 /// Parallel edges lose theirs quadratically. So the potential has a continuous gradient, which `weight` carries: the
 /// springs of ends lose what the gradient of the product gives to the edge. What cannot be taken off an end's own
 /// contact is an elastic one with negative weight. Cores that overlap: see soften_sunk().
@@ -108,6 +110,7 @@ class Manifolds {
   std::vector<PointState> points_;
   std::vector<EdgePair> edges_, lines_;
   std::vector<ArcState> arcs_;
+  std::vector<ArcExtreme> extremes_; ///< of the arc at hand
   BoxLanes boxes_;
   EdgeLanes edge_lanes_;
   std::vector<Contact> contacts_;

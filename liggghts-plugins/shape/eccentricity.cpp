@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Statistics of delta_e over evenly spread directions, with the extremes sought out from the best samples.
+// delta_e of clusters over evenly spread directions; rounded bodies have rounded_eccentricity.h.
 #include "shape/eccentricity.h"
 
-#include "shape/directions.h"
+#include "shape/over_directions.h"
+#include "shape/rounded_eccentricity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +15,8 @@
 namespace eccentra::shape {
 namespace {
 
-constexpr int direction_count = 50000;      ///< mean good to 1e-4, spacing of directions 0.016 rad
 constexpr int cluster_pair_count = 20000;   ///< mean good to 2e-3
 constexpr int surface_point_count = 400000; ///< over all spheres, before the covered ones are dropped
-/// Search for an extreme: starts, the first step [rad], and where it ends [rad].
-constexpr int search_starts = 24;
-constexpr double first_step = 0.02, last_step = 1e-9;
-constexpr int directions_per_step = 12;
 
 /// Sub-spheres that can be touched, as arrays for the inner loops.
 struct Touchable {
@@ -73,52 +69,6 @@ double sphere_eccentricity(const Touchable& t, const Eigen::Vector3d& direction,
   return result;
 }
 
-/// Walks from `start` to where `value` is largest, by steps in turning directions that shrink when none leads higher.
-template <typename Value> double climb(const Value& value, Eigen::Vector3d start, double best) {
-  int turn = 0;
-  for (double step = first_step; step > last_step;) {
-    const Eigen::Vector3d side = start.unitOrthogonal(), up = start.cross(side);
-    bool higher = false;
-    for (int k = 0; k < directions_per_step && !higher; ++k) {
-      const double angle = 2 * M_PI * k / directions_per_step + turn;
-      const Eigen::Vector3d trial = (start + step * (std::cos(angle) * side + std::sin(angle) * up)).normalized();
-      const double found = value(trial);
-      if (found > best) {
-        best = found;
-        start = trial;
-        higher = true;
-      }
-    }
-    ++turn;
-    step *= higher ? 1.5 : 0.5;
-    step = std::min(step, first_step);
-  }
-  return best;
-}
-
-/// Largest value over the sphere, from the best of the samples taken at the Fibonacci directions.
-template <typename Value> double largest(const Value& value, const std::vector<double>& samples, double sign) {
-  std::vector<int> order(samples.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto middle = order.begin() + std::min<std::size_t>(search_starts, order.size());
-  std::partial_sort(order.begin(), middle, order.end(),
-                    [&](int a, int b) { return sign * samples[a] > sign * samples[b]; });
-  double best = -std::numeric_limits<double>::max();
-  for (auto it = order.begin(); it != middle; ++it)
-    best =
-        std::max(best, climb(value, fibonacci_direction(*it, static_cast<int>(samples.size())), sign * samples[*it]));
-  return sign * best;
-}
-
-template <typename Value> EccentricityDistribution over_directions(const Value& value) {
-  std::vector<double> samples(direction_count);
-  for (int k = 0; k < direction_count; ++k)
-    samples[k] = value(fibonacci_direction(k, direction_count));
-  const double high = largest(value, samples, 1);
-  const double low = largest([&](const Eigen::Vector3d& n) { return -value(n); }, samples, -1);
-  return {std::move(samples), low, high};
-}
-
 } // namespace
 
 EccentricityDistribution::EccentricityDistribution(std::vector<double> samples, double least, double largest)
@@ -142,12 +92,16 @@ double EccentricityDistribution::quantile(double probability) const {
 }
 
 EccentricityDistribution eccentricity_plane(const ClusterShape& shape) {
+  if (shape.hull())
+    return eccentricity_plane(*shape.hull());
   const Touchable t(shape);
   const double unit = shape.equivalent_radius();
   return over_directions([&](const Eigen::Vector3d& n) { return plane_eccentricity(t, n) / unit; });
 }
 
 EccentricityDistribution eccentricity_sphere(const ClusterShape& shape, double radius) {
+  if (shape.hull())
+    return eccentricity_sphere(*shape.hull(), radius);
   if (!(radius > 0) || !std::isfinite(radius))
     throw std::invalid_argument("the radius of the sphere that a shape meets must be a number greater than 0");
   const Touchable t(shape);
@@ -156,6 +110,8 @@ EccentricityDistribution eccentricity_sphere(const ClusterShape& shape, double r
 }
 
 EccentricityDistribution eccentricity_surface(const ClusterShape& shape) {
+  if (shape.hull())
+    return eccentricity_surface(*shape.hull());
   const std::vector<Sphere>& spheres = shape.spheres();
   const double unit = shape.equivalent_radius();
   double total = 0;
@@ -195,6 +151,8 @@ EccentricityDistribution eccentricity_surface(const ClusterShape& shape) {
 }
 
 EccentricityDistribution eccentricity_cluster(const ClusterShape& shape, const ClusterShape& other) {
+  if (shape.hull() || other.hull())
+    return rounded_eccentricity_cluster(shape, other, cluster_pair_count);
   const Touchable a(shape), b(other);
   const double unit = shape.equivalent_radius();
   std::vector<double> samples(cluster_pair_count);

@@ -163,6 +163,8 @@ std::string resistance_cache_folder() {
 }
 
 Resistance cached_resistance(const ClusterShape& shape) {
+  if (shape.hull() && shape.spheres().size() > 1)
+    return cached(*shape.hull());
   return shape.spheres().size() == 1 ? Resistance{} : cached(shape);
 }
 

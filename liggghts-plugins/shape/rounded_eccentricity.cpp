@@ -7,13 +7,17 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace eccentra::shape {
-namespace {
 
+using Eigen::Matrix3d;
 using Eigen::Vector3d;
+
+namespace {
 
 constexpr int surface_points = 400000;
 
@@ -124,6 +128,96 @@ EccentricityDistribution eccentricity_surface(const RoundedHull& hull) {
   SurfaceSamples all(hull);
   const double most = *std::max_element(all.samples.begin(), all.samples.end());
   return {std::move(all.samples), 0, most}; // where the surface is nearest to the centre
+}
+
+namespace {
+
+/// A ball, or a rounded body; `turn` body to world, `centre` of the body or of the ball, from the body's centre.
+struct Part {
+  const RoundedHull* hull;
+  Matrix3d turn;
+  Vector3d centre;
+  double radius;
+
+  /// Distance of the core from a point, world axes from the body's centre.
+  CoreDistance distance(const Vector3d& point) const {
+    if (!hull) {
+      const Vector3d apart = point - centre;
+      const double length = apart.norm();
+      return {length, length > 0 ? Vector3d(apart / length) : Vector3d(Vector3d::UnitZ())};
+    }
+    CoreDistance d = hull->distance_to_core(turn.transpose() * point);
+    d.normal = (turn * d.normal).eval();
+    return d;
+  }
+};
+
+std::vector<Part> parts_of(const ClusterShape& shape, const Matrix3d& turn) {
+  if (shape.hull())
+    return {{shape.hull(), turn, Vector3d::Zero(), shape.hull()->radius()}};
+  std::vector<Part> parts;
+  for (const int k : shape.surface_spheres())
+    parts.push_back({nullptr, turn, turn * shape.spheres()[k].centre, shape.spheres()[k].radius});
+  return parts;
+}
+
+/// The closest points of two cores that are apart, `offset` from A's centre to B's: projections in turn.
+struct Closest {
+  double distance;
+  Vector3d on_a, normal; ///< normal from B to A
+};
+Closest closest_points(const Part& a, const Part& b, const Vector3d& offset) {
+  constexpr int limit = 1000;
+  constexpr double precision = 1e-9;
+  Vector3d on_b = offset + b.centre, on_a = a.centre;
+  double before = std::numeric_limits<double>::max();
+  CoreDistance d{};
+  for (int k = 0; k < limit; ++k) {
+    if (a.hull) {
+      const CoreDistance from_a = a.distance(on_b);
+      on_a = on_b - from_a.distance * from_a.normal;
+    }
+    d = b.distance(on_a - offset);
+    on_b = on_a - d.distance * d.normal;
+    if (!a.hull || !b.hull || before - d.distance < precision * d.distance)
+      break;
+    before = d.distance;
+  }
+  return {d.distance, on_a, d.normal};
+}
+
+} // namespace
+
+EccentricityDistribution rounded_eccentricity_cluster(const ClusterShape& shape, const ClusterShape& other, int count) {
+  const double unit = shape.equivalent_radius(), outside = shape.bounding_radius() + other.bounding_radius();
+  const std::vector<Part> own = parts_of(shape, Matrix3d::Identity());
+  std::vector<double> samples(count);
+  for (int s = 0; s < count; ++s) {
+    const DirectionAndRotation way = even_direction_and_rotation(s);
+    double farthest = 0;
+    for (const Part& b : parts_of(other, way.rotation.toRotationMatrix()))
+      for (const Part& a : own) {
+        // As in eccentricity_sphere, Newton's steps from outside; parts that pass each other never touch.
+        double along = outside;
+        for (int k = 0; k < 60 && along > farthest; ++k) {
+          const Closest c = closest_points(a, b, along * way.direction);
+          const double slope = -c.normal.dot(way.direction), gap = c.distance - a.radius - b.radius;
+          if (slope <= 1e-9)
+            break;
+          along -= gap / slope;
+          if (gap < 1e-9 * outside) {
+            if (along > farthest) {
+              farthest = along;
+              samples[s] = c.on_a.cross(c.normal).norm() / unit;
+            }
+            break;
+          }
+        }
+      }
+  }
+  const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
+  const double least = *low, most = *high;
+  return {std::move(samples), least, most};
 }
 
 } // namespace eccentra::shape

@@ -17,4 +17,7 @@ EccentricityDistribution eccentricity_sphere(const RoundedHull& hull, double rad
 /// Against something small that touches every part of the surface equally likely.
 EccentricityDistribution eccentricity_surface(const RoundedHull& hull);
 
+/// As eccentricity_cluster over `count` meetings, where at least one of the two is a rounded body.
+EccentricityDistribution rounded_eccentricity_cluster(const ClusterShape& shape, const ClusterShape& other, int count);
+
 } // namespace eccentra::shape

@@ -1,32 +1,47 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rounded bodies as users type them.
+// What the families of rounded bodies share: rounding or sphericity, contact radius, size.
 #pragma once
 
+#include "base/option_reader.h"
+#include "shape/cluster_shape.h"
 #include "shape/rounded_hull.h"
 
+#include <functional>
 #include <string>
-#include <vector>
 
 namespace eccentra::shape {
 
-/// A body made of arguments, and what its user should know about it.
-struct RoundedShape {
-  RoundedHull hull;
-  std::string remark; ///< a sentence, or empty
+/// A core and the ball that sweeps it.
+struct Swept {
+  RoundedHull::Core core;
+  double radius; ///< [m]
 };
 
-/// True for the first arguments of a rounded body: smooth, hull.
-bool is_rounded_word(const std::string& word);
+/// Bodies of one outer form. The rounding, in (0, 1], is the radius of edges and corners over half the smallest outer
+/// extent.
+struct RoundedForm {
+  std::string name; ///< as typed, e.g. "smooth disk aspect 0.3"
+  std::function<Swept(double rounding)> body;
+  bool own_size; ///< has a size without a diameter
+};
 
-/// Reads from arguments[first] on, `used` becomes the number of arguments consumed:
-///   smooth cube | smooth box A B C | smooth disk aspect H | hull NAME.stl [scale S]
-/// each with `rounding R` or `sphericity S`, and maybe `contact_radius C`. R in (0, 1] is the radius of edges and
-/// corners over half the smallest outer extent; H is thickness over diameter; A B C are outer edges [m], or their
-/// proportions where a diameter is given. `diameter` [m] of the sphere of equal volume; <= 0 keeps the size that a box
-/// or a file gives. Throws std::invalid_argument with one sentence that names the word, its value and the remedy.
-RoundedShape make_rounded(const std::vector<std::string>& arguments, std::size_t first, std::size_t& used,
-                          double diameter);
+/// `rounding R` or `sphericity S`, and maybe `contact_radius C`, in any order; 0 is not given.
+struct RoundedOptions {
+  double rounding = 0, sphericity = 0, contact_radius = 0;
+  double scale = 0; ///< of a file
+};
+
+/// Reads the options of a form up to the first word that is none of them. Throws std::invalid_argument with one
+/// sentence that names the word, its value and the remedy.
+RoundedOptions read_rounded_options(base::OptionReader& reader, const std::string& name, bool of_file);
+
+/// `diameter` [m] of the sphere of equal volume; <= 0 keeps the form's own size. Throws std::invalid_argument where
+/// there is none, or where no rounding gives the sphericity.
+ClusterShape make_rounded(const RoundedForm& form, const RoundedOptions& options, double diameter);
+
+/// A core on a smaller scale, so that the least width of the rounded body is that of this one.
+RoundedForm form_of_core(std::string name, const ConvexCore& core);
 
 /// The convex hull of a file, for `hull NAME.stl`; VTK, which reads it, lives apart.
 struct HullOfFile {
@@ -35,5 +50,7 @@ struct HullOfFile {
 };
 using HullReader = HullOfFile (*)(const std::string& path, double scale);
 void install_hull_reader(HullReader reader);
+/// Null where the program has none.
+HullReader hull_reader();
 
 } // namespace eccentra::shape

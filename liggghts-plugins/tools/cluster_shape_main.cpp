@@ -5,6 +5,7 @@
 #include "shape/clump_file.h"
 #include "shape/shape_family.h"
 #include "shape/shape_keywords.h"
+#include "shape/vtk/hull_of_stl.h"
 #include "shape/vtk/picture.h"
 #include "shape/vtk/stl_shape.h"
 #include "tools/advise.h"
@@ -115,6 +116,10 @@ void print_notes(const ShapeArguments& a, const Notes& notes) {
 
 void write_files(const ShapeArguments& a, const std::vector<ClusterShape>& shapes) {
   if (!a.clump.empty()) {
+    if (shapes[0].hull())
+      throw std::invalid_argument("-o: '" + a.clump + "' is a list of spheres, which the rounded body '" +
+                                  shapes[0].name() +
+                                  "' is not; expected a cluster: use --vtk, or name the body in the script");
     std::ofstream out(a.clump);
     write_clump(out, shapes[0]);
     if (!out.flush())
@@ -285,6 +290,7 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   try {
     install_stl_keywords();
+    install_hull_words();
     if (read_arguments(argc, argv, arguments, exit_code))
       run(arguments);
     eccentra::finish_standard_output();

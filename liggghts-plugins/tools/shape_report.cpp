@@ -4,6 +4,7 @@
 #include "tools/shape_report.h"
 
 #include "shape/resistance_cache.h"
+#include "shape/rounded_hull.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -87,10 +88,16 @@ std::vector<Row> rows_of(const ShapeReport& r) {
   const ClusterShape& s = r.shape;
   const Eigen::Vector3d inertia = s.inertia_per_mass();
   const double sphere_inertia = 0.4 * s.equivalent_radius() * s.equivalent_radius();
-  std::vector<Row> rows = {
-      {"spheres", static_cast<double>(s.spheres().size()), ""},
-      {"spheres that can be touched", static_cast<double>(s.surface_spheres().size()), ""},
-      {"smallest radius of those", s.smallest_radius(), "m"},
+  std::vector<Row> rows;
+  if (s.hull())
+    rows = {{"radius of edges and corners", s.hull()->radius(), "m"},
+            {"radius in Hertz's law", s.hull()->contact_radius(), "m"},
+            {"vertices, or points on rims", static_cast<double>(s.spheres().size()), ""}};
+  else
+    rows = {{"spheres", static_cast<double>(s.spheres().size()), ""},
+            {"spheres that can be touched", static_cast<double>(s.surface_spheres().size()), ""},
+            {"smallest radius of those", s.smallest_radius(), "m"}};
+  const std::vector<Row> of_all = {
       {"volume", s.volume(), "m3"},
       {"surface", s.surface(), "m2"},
       {"sphericity", s.sphericity(), ""},
@@ -104,6 +111,7 @@ std::vector<Row> rows_of(const ShapeReport& r) {
       {"inertia / (0.4 R_eq^2), y", inertia.y() / sphere_inertia, ""},
       {"inertia / (0.4 R_eq^2), z", inertia.z() / sphere_inertia, ""},
   };
+  rows.insert(rows.end(), of_all.begin(), of_all.end());
   const char* axes[] = {"x", "y", "z"};
   const Eigen::Vector3d b = r.resistance.bretherton(), period = jeffery_periods(r.resistance);
   for (int k = 0; k < 3; ++k)
@@ -176,22 +184,25 @@ nlohmann::json to_json(const ShapeReport& r) {
   nlohmann::json notes = nlohmann::json::array();
   for (const Note& note : r.notes)
     notes.push_back({{"text", note.text}, {"warning", note.warning}});
-  return {{"name", s.name()},
-          {"notes", notes},
-          {"spheres", s.spheres().size()},
-          {"touchable_spheres", s.surface_spheres().size()},
-          {"smallest_radius", s.smallest_radius()},
-          {"volume", s.volume()},
-          {"surface", s.surface()},
-          {"equivalent_radius", s.equivalent_radius()},
-          {"bounding_radius", s.bounding_radius()},
-          {"sphericity", s.sphericity()},
-          {"centre", to_json(s.given_centre())},
-          {"inertia", to_json(s.inertia_per_mass())},
-          {"resistance", to_json(r.resistance, 2 * s.equivalent_radius())},
-          {"eccentricity", eccentricity},
-          {"eccentricity_partner", r.partner},
-          {"mu_shape", default_mu_shape(r)}};
+  nlohmann::json json = {{"name", s.name()},
+                         {"notes", notes},
+                         {"spheres", s.spheres().size()},
+                         {"touchable_spheres", s.surface_spheres().size()},
+                         {"smallest_radius", s.smallest_radius()},
+                         {"volume", s.volume()},
+                         {"surface", s.surface()},
+                         {"equivalent_radius", s.equivalent_radius()},
+                         {"bounding_radius", s.bounding_radius()},
+                         {"sphericity", s.sphericity()},
+                         {"centre", to_json(s.given_centre())},
+                         {"inertia", to_json(s.inertia_per_mass())},
+                         {"resistance", to_json(r.resistance, 2 * s.equivalent_radius())},
+                         {"eccentricity", eccentricity},
+                         {"eccentricity_partner", r.partner},
+                         {"mu_shape", default_mu_shape(r)}};
+  if (s.hull())
+    json["rounding"] = {{"radius", s.hull()->radius()}, {"contact_radius", s.hull()->contact_radius()}};
+  return json;
 }
 
 std::string to_text(const ShapeReport& r) {
@@ -220,7 +231,8 @@ std::string compare_text(const ShapeReport& a, const ShapeReport& b) {
   text +=
       fmt::format("A is {}, B is {}; \"on cluster\" means each against the other\n", a.shape.name(), b.shape.name());
   const std::vector<Row> left = rows_of(a), right = rows_of(b);
-  for (std::size_t k = 0; k < left.size(); ++k) {
+  constexpr std::size_t of_kind = 3; // rows that clusters and rounded bodies do not share
+  for (std::size_t k = !a.shape.hull() == !b.shape.hull() ? 0 : of_kind; k < left.size(); ++k) {
     const double ratio = right[k].value / left[k].value;
     text += fmt::format(
         "{:<32} {:>14} {:>14} {:>9} {}\n", left[k].label, number(left[k].value), number(right[k].value),
@@ -236,11 +248,11 @@ std::string property_lines(const ShapeReport& report, const MuShapeChoice& choic
     throw std::invalid_argument(
         fmt::format("atom type {} is not one of {} types: give --type between 1 and --types", own, types));
   const double value = mu_shape(report, choice);
-  std::string text =
-      fmt::format("# mu_shape = delta_e/R_eq of {} ({} spheres): {}; eq (33): mu_r + mu_shape\n", report.shape.name(),
-                  report.shape.spheres().size(),
-                  choice.estimate == "paper" ? std::string("the paper's own value")
-                                             : choice.estimate + " over contacts with a " + choice.partner);
+  std::string text = fmt::format(
+      "# mu_shape = delta_e/R_eq of {} ({}): {}; eq (33): mu_r + mu_shape\n", report.shape.name(),
+      report.shape.hull() ? std::string("rounded") : fmt::format("{} spheres", report.shape.spheres().size()),
+      choice.estimate == "paper" ? std::string("the paper's own value")
+                                 : choice.estimate + " over contacts with a " + choice.partner);
   for (const auto& [name, d] : partners_of(report))
     text += fmt::format("#   on {:<8} min {:.4f}  mean {:.4f}  max {:.4f}\n", name, d->min(), d->mean(), d->max());
   const auto add_line = [&](const char* id, const char* property, auto&& of_pair) {

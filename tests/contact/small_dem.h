@@ -9,7 +9,7 @@
 #include "contact/manifold.h"
 #include "contact/shared_contacts.h"
 #include "contact/wall_manifold.h"
-#include "shape/rounded_words.h"
+#include "shape/cluster_shape.h"
 
 #include <Eigen/Geometry>
 
@@ -43,7 +43,7 @@ inline RoundedHull made(const std::string& line, double diameter) {
   for (std::string word; in >> word;)
     arguments.push_back(word);
   std::size_t used = 0;
-  return eccentra::shape::make_rounded(arguments, 0, used, diameter).hull;
+  return *eccentra::shape::make_shape(arguments, 0, used, diameter).hull();
 }
 
 /// A shape as bodies share it.

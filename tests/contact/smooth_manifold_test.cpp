@@ -6,9 +6,10 @@
 #include "contact/gjk.h"
 #include "contact/least_axis.h"
 #include "contact/manifold.h"
+#include "contact/mesh_manifold.h"
 #include "contact/wall_manifold.h"
+#include "shape/cluster_shape.h"
 #include "shape/convex_hull.h"
-#include "shape/rounded_words.h"
 
 #include <Eigen/Geometry>
 
@@ -46,7 +47,7 @@ RoundedHull made(const std::string& line) {
   for (std::string word; in >> word;)
     arguments.push_back(word);
   std::size_t used = 0;
-  return eccentra::shape::make_rounded(arguments, 0, used, 2).hull;
+  return *eccentra::shape::make_shape(arguments, 0, used, 2).hull();
 }
 
 RoundedHull scattered(unsigned seed) {
@@ -458,6 +459,55 @@ TEST(SmoothManifold, OverATriangleAHullIsOnAPlane) {
       EXPECT_LT((plane.torque - mesh.torque).norm(), 1e-6 * plane.force.norm());
     }
   }
+}
+
+// The triangles of a box are the box, whose corners have no radius.
+TEST(SmoothManifold, AMeshOfABoxIsTheBox) {
+  Random r(12);
+  const eccentra::shape::ConvexCore box = eccentra::shape::box_core({0.7, 0.9, 0.8});
+  const ContactCore solid(box, 0.);
+  int with_edges = 0;
+  for (const RoundedHull& hull : {made("smooth cube rounding .2"), made("smooth box 1 2 3 rounding .3")}) {
+    const ContactCore core(hull);
+    for (int n = 0; n < 300; ++n) {
+      Pose pose = random_pose(core, solid, r, 0.9 * core.radius);
+      const std::vector<Contact> expected = find(pose, 0.1 * core.radius).contacts;
+      // Each face as two triangles; an edge is active in the triangle that comes last.
+      std::vector<eccentra::contact::MeshTriangle> mesh;
+      std::vector<std::array<int, 3>> corners;
+      for (const auto& face : box.faces)
+        for (int half = 0; half < 2; ++half)
+          corners.push_back({face.corners[0], face.corners[1 + half], face.corners[2 + half]});
+      for (std::size_t t = 0; t < corners.size(); ++t) {
+        eccentra::contact::MeshTriangle triangle;
+        for (int k = 0; k < 3; ++k) {
+          triangle.corner[k] = pose.offset + pose.b.point(corners[t][k]);
+          const int from = corners[t][k], to = corners[t][(k + 1) % 3];
+          const auto is_edge = [&](const eccentra::shape::CoreEdge& e) {
+            return (e.from == from && e.to == to) || (e.from == to && e.to == from);
+          };
+          triangle.edge_active[k] = std::any_of(box.edges.begin(), box.edges.end(), is_edge);
+          for (std::size_t later = t + 1; later < corners.size(); ++later)
+            for (int j = 0; j < 3; ++j)
+              if (corners[later][j] == to && corners[later][(j + 1) % 3] == from)
+                triangle.edge_active[k] = false;
+        }
+        mesh.push_back(triangle);
+      }
+      eccentra::contact::MeshManifold manifold;
+      std::vector<Contact> found;
+      for (const auto& touch : manifold.touches({&pose.a}, mesh))
+        found.push_back(touch.contact);
+      const Load a = load_of(expected), b = load_of(found);
+      EXPECT_LT((a.force - b.force).norm(), 1e-9 * (1 + a.force.norm())) << hull.name() << " " << n;
+      EXPECT_LT((a.torque - b.torque).norm(), 1e-9 * (1 + a.torque.norm())) << hull.name() << " " << n;
+      with_edges += std::any_of(expected.begin(), expected.end(), [&](const Contact& c) {
+        return !c.elastic && eccentra::contact::feature_a(c.id) >= core.points &&
+               eccentra::contact::feature_b(c.id) >= solid.points;
+      });
+    }
+  }
+  EXPECT_GT(with_edges, 100);
 }
 
 // On a pipe of very large radius a body stands as on a plane; on a thin one an edge touches with its middle.

@@ -37,6 +37,8 @@ STUDIES = {
     "oriented-section": (["--shapes", "disk:7", "--inclinations", "80", "--seeds", "1", "--count", "50"], {
         "--shapes": ["cube:8"], "--inclinations": ["0"], "--seeds": ["2"], "--count": ["60"], "--quick": []}, ()),
     "drag-against-measurement": (["--data", "POINTS"], {"--data": ["OTHER_POINTS"], "--laws": ["chien"]}, ()),
+    "rounding": (["--scenes", "heap", "--bodies", "cube", "--seeds", "1"], {
+        "--scenes": ["drum"], "--bodies": ["disk"], "--seeds": ["2"], "--quick": []}, ()),
     "solver-cost": ([], {"--cells": ["4 24 10"], "--length": ["0.2"], "--steps": ["3"], "--turns": ["1"], "--pressure": ["pcg"],
                          "--viscosity": ["strainRate"], "--quick": []}, ()),
     "link-cost": ([], {"--parts": ["ranks"], "--turns": ["2"], "--quick": []}, ()),
@@ -53,6 +55,7 @@ ANNULUS = ["--bodies", "cube", "--levels", "S1", "--scenes", "section", "--seeds
 # Where an option has something to choose from only in another call than the short one.
 STARTS = {("accuracy-cost", option): ANNULUS for option in ("--inclinations", "--velocities", "--quick")}
 STARTS["full-scene", "--quick"] = ["--levels", "S1"]
+STARTS["rounding", "--quick"] = []
 STARTS["paper", "--quick"] = ["--figures", "7"]
 
 

@@ -6,7 +6,7 @@
 #include "shape/principal_frame.h"
 #include "shape/rounded_eccentricity.h"
 #include "shape/rounded_moments.h"
-#include "shape/rounded_words.h"
+#include "shape/shape_keywords.h"
 
 #include <Eigen/Geometry>
 
@@ -236,9 +236,9 @@ RoundedHull made(const std::string& line, double diameter) {
     arguments.push_back(line.substr(at, end - at));
     at = end + 1;
   }
-  RoundedShape shape = make_rounded(arguments, 0, used, diameter);
+  const ClusterShape shape = make_shape(arguments, 0, used, diameter);
   EXPECT_EQ(used, arguments.size());
-  return shape.hull;
+  return *shape.hull();
 }
 
 TEST(SmoothGeometry, TableOfRoundedCubes) {
@@ -413,18 +413,18 @@ void expect_refused(const std::string& line, double diameter, const std::string&
 }
 
 TEST(SmoothGeometry, WordsThatAreRefused) {
-  expect_refused("smooth", 1, "missing");
-  expect_refused("smooth ball rounding .1", 1, "smooth ball");
-  expect_refused("smooth cube", 1, "has no rounding");
-  expect_refused("smooth cube rounding", 1, "missing");
+  expect_refused("smooth", 1, "last word");
+  expect_refused("smooth ball rounding .1", 1, "'ball'");
+  expect_refused("smooth cube", 1, "'rounding R' is not given");
+  expect_refused("smooth cube rounding", 1, "last word");
   expect_refused("smooth cube rounding 0", 1, "'0'");
   expect_refused("smooth cube rounding -1", 1, "'-1'");
   expect_refused("smooth cube rounding nan", 1, "'nan'");
   expect_refused("smooth cube rounding 1.2", 1, "'1.2'");
   expect_refused("smooth cube rounding 0.001", 1, "'0.001'");
-  expect_refused("smooth cube rounding .1 rounding .2", 1, "twice");
-  expect_refused("smooth cube rounding .1 sphericity .9", 1, "both");
-  expect_refused("smooth cube sphericity .7", 1, "can be 0.80");
+  expect_refused("smooth cube rounding .1 rounding .2", 1, "not given once");
+  expect_refused("smooth cube rounding .1 sphericity .9", 1, "one of the two");
+  expect_refused("smooth cube sphericity .7", 1, "from 0.80");
   expect_refused("smooth cube sphericity 1.1", 1, "up to 1");
   expect_refused("smooth cube rounding .1", 0, "no size of its own");
   expect_refused("smooth cube rounding .1", NAN, "finite");
@@ -447,7 +447,7 @@ TEST(SmoothGeometry, WordsThatAreTaken) {
   for (const double s : {0.75, 0.79})
     EXPECT_NEAR(made("smooth disk aspect .3 sphericity " + std::to_string(s), 1).sphericity(), s, 1e-9);
   std::size_t used = 0;
-  make_rounded({"x", "smooth", "cube", "rounding", ".2", "diameter", "3"}, 1, used, 3);
+  make_shape({"x", "smooth", "cube", "rounding", ".2", "diameter", "3"}, 1, used, 3);
   EXPECT_EQ(used, 4u);
 }
 

@@ -11,7 +11,7 @@ namespace eccentra::shape {
 /// the hull was thinned. Throws std::invalid_argument as Solid does.
 HullOfFile hull_of_stl(const std::string& path, double scale);
 
-/// Makes `hull NAME.stl` known to make_rounded. Call once at start.
+/// Makes `hull NAME.stl` known to its family. Call once at start.
 void install_hull_words();
 
 } // namespace eccentra::shape

@@ -3,6 +3,7 @@
 // Renders union surfaces off screen.
 #include "shape/vtk/picture.h"
 
+#include "shape/rounded_hull.h"
 #include "shape/vtk/union_surface.h"
 #include "shape/vtk/virtual_display.h"
 
@@ -117,7 +118,9 @@ void add_panel(vtkRenderWindow* window, const ClusterShape& shape, double left, 
   renderer->AddActor(actor);
   add_text(renderer, shape.name(), 0.5, 0.93, 24, true);
   add_text(renderer,
-           fmt::format("{} spheres   R_eq {:.4g} m   sphericity {:.3f}", shape.spheres().size(),
+           fmt::format("{}   R_eq {:.4g} m   sphericity {:.3f}",
+                       shape.hull() ? fmt::format("corners of {:.3g} m", shape.hull()->radius())
+                                    : fmt::format("{} spheres", shape.spheres().size()),
                        shape.equivalent_radius(), shape.sphericity()),
            0.5, 0.885, 15, false);
   vtkCamera* camera = renderer->GetActiveCamera();

@@ -1,14 +1,18 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sphere meshes, each clipped where another sphere covers it.
+// Sphere meshes, each clipped where another sphere covers it; rounded bodies piece by piece.
 #include "shape/vtk/union_surface.h"
 
+#include "shape/drawn_surface.h"
+
 #include <vtkAppendPolyData.h>
+#include <vtkCellArray.h>
 #include <vtkClipPolyData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkSphereSource.h>
 
 #include <Eigen/Geometry>
@@ -19,8 +23,44 @@
 
 namespace eccentra::shape {
 
+namespace {
+
+vtkSmartPointer<vtkPolyData> surface_of_hull(const RoundedHull& hull, const Eigen::Vector3d& offset, int fineness) {
+  const TriangleSurface surface = rounded_surface(hull, std::max(2, fineness / 8));
+  const double unit = hull.equivalent_radius();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkFloatArray> normal, eccentricity, number;
+  normal->SetName("Normals");
+  normal->SetNumberOfComponents(3);
+  eccentricity->SetName(eccentricity_array);
+  number->SetName(sphere_array);
+  for (const SurfacePoint& p : surface.points) {
+    points->InsertNextPoint((p.position + offset).eval().data());
+    normal->InsertNextTuple3(p.normal.x(), p.normal.y(), p.normal.z());
+    eccentricity->InsertNextValue(static_cast<float>(p.position.cross(p.normal).norm() / unit));
+    number->InsertNextValue(static_cast<float>(p.vertex));
+  }
+  vtkNew<vtkCellArray> triangles;
+  for (const auto& triangle : surface.triangles) {
+    const vtkIdType corners[3] = {triangle[0], triangle[1], triangle[2]};
+    triangles->InsertNextCell(3, corners);
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetPolys(triangles);
+  data->GetPointData()->SetNormals(normal);
+  data->GetPointData()->AddArray(number);
+  data->GetPointData()->SetScalars(eccentricity);
+  return data;
+}
+
+} // namespace
+
 vtkSmartPointer<vtkPolyData> union_surface(const ClusterShape& shape, const Eigen::Vector3d& offset, int fineness,
                                            double margin) {
+  if (shape.hull())
+    return surface_of_hull(*shape.hull(), offset, fineness);
   const double unit = shape.equivalent_radius();
   vtkNew<vtkAppendPolyData> whole;
   for (const int index : shape.surface_spheres()) {

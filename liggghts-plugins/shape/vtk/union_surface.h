@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The exposed surface of a union of spheres as triangles.
+// The exposed surface of a shape as triangles.
 #pragma once
 
 #include "shape/cluster_shape.h"
@@ -14,9 +14,9 @@ namespace eccentra::shape {
 constexpr const char* eccentricity_array = "delta_e/R_eq";
 constexpr const char* sphere_array = "sub-sphere";
 
-/// Triangles of the free part of every touchable sphere, moved by `offset` [m], with the exact normals and the arrays
-/// above. `fineness` is the number of meridians per sphere; a margin > 0, in radii, keeps that much of the covered
-/// part, so that no cracks show between facets when the surface is drawn.
+/// Triangles of a rounded body, or of the free part of every touchable sphere, moved by `offset` [m], with the exact
+/// normals and the arrays above. `fineness` is the number of meridians per sphere; a margin > 0, in radii, keeps that
+/// much of the covered part, so that no cracks show between facets when the surface is drawn.
 vtkSmartPointer<vtkPolyData> union_surface(const ClusterShape& shape, const Eigen::Vector3d& offset, int fineness,
                                            double margin);
 

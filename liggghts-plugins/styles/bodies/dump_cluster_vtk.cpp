@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// dump cluster/vtk: gathers bodies on the first rank, which draws their sub-spheres from the table of shapes.
+// dump cluster/vtk: gathers bodies on the first rank, which draws them from the table of shapes.
 #include "styles/bodies/dump_cluster_vtk.h"
 
+#include "shape/drawn_surface.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/entry/style_registry.h"
 
@@ -26,6 +27,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <numeric>
 
 namespace eccentra::styles {
@@ -34,7 +36,8 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-const styles::RegisterDump<DumpClusterVtk> record("cluster/vtk", "sub-spheres of clusters as VTK files for ParaView");
+const styles::RegisterDump<DumpClusterVtk>
+    record("cluster/vtk", "sub-spheres of clusters and surfaces of rounded bodies as VTK files for ParaView");
 
 /// One body on its way to the first rank, as doubles.
 struct Body {
@@ -44,6 +47,8 @@ struct Body {
   double radius;         ///< of the bounding sphere
 };
 constexpr int kDoubles = sizeof(Body) / sizeof(double);
+/// Strips across an edge of a rounded body: a cube has 444 triangles.
+constexpr int kSurfaceSteps = 3;
 
 /// The arrays of a VTK file, filled row by row.
 class Rows {
@@ -61,20 +66,27 @@ class Rows {
     omega_->SetNumberOfComponents(3);
     orientation_->SetName("orientation");
     orientation_->SetNumberOfComponents(4);
+    normals_->SetName("Normals");
+    normals_->SetNumberOfComponents(3);
     for (auto* array : {radius_.Get(), velocity_.Get(), omega_.Get(), orientation_.Get()})
       data_->GetPointData()->AddArray(array);
   }
 
   void add(const Body& body, const Eigen::Vector3d& centre, double radius) {
-    const vtkIdType point = points_->InsertNextPoint(centre.x(), centre.y(), centre.z());
+    const vtkIdType point = add_point(body, centre, radius, Eigen::Vector3d::Zero());
     vertices_->InsertNextCell(1, &point);
-    radius_->InsertNextValue(static_cast<float>(radius));
-    body_->InsertNextValue(static_cast<int>(body.tag));
-    type_->InsertNextValue(static_cast<int>(body.type));
-    shape_->InsertNextValue(static_cast<int>(body.shape));
-    velocity_->InsertNextTuple(body.v);
-    omega_->InsertNextTuple(body.omega);
-    orientation_->InsertNextTuple(body.orientation);
+  }
+
+  /// The surface of a rounded body as triangles, whose corners have the radius 0.
+  void add(const Body& body, const Eigen::Vector3d& centre, const Eigen::Quaterniond& turn,
+           const shape::TriangleSurface& surface) {
+    const vtkIdType first = points_->GetNumberOfPoints();
+    for (const shape::SurfacePoint& p : surface.points)
+      add_point(body, centre + turn * p.position, 0, turn * p.normal);
+    for (const auto& triangle : surface.triangles) {
+      const vtkIdType corners[3] = {first + triangle[0], first + triangle[1], first + triangle[2]};
+      triangles_->InsertNextCell(3, corners);
+    }
   }
 
   /// The file appears whole or not at all. VTK does not look whether a stream takes what it is given: it fills memory.
@@ -82,6 +94,10 @@ class Rows {
   std::string write(const std::string& name) {
     data_->SetPoints(points_);
     data_->SetVerts(vertices_);
+    if (triangles_->GetNumberOfCells() > 0) {
+      data_->SetPolys(triangles_);
+      data_->GetPointData()->SetNormals(normals_);
+    }
     data_->GetPointData()->SetActiveScalars("radius");
     vtkNew<vtkXMLPolyDataWriter> writer;
     writer->SetInputData(data_);
@@ -105,10 +121,22 @@ class Rows {
   }
 
  private:
+  vtkIdType add_point(const Body& body, const Eigen::Vector3d& at, double radius, const Eigen::Vector3d& normal) {
+    radius_->InsertNextValue(static_cast<float>(radius));
+    body_->InsertNextValue(static_cast<int>(body.tag));
+    type_->InsertNextValue(static_cast<int>(body.type));
+    shape_->InsertNextValue(static_cast<int>(body.shape));
+    velocity_->InsertNextTuple(body.v);
+    omega_->InsertNextTuple(body.omega);
+    orientation_->InsertNextTuple(body.orientation);
+    normals_->InsertNextTuple(normal.data());
+    return points_->InsertNextPoint(at.data());
+  }
+
   vtkNew<vtkPolyData> data_;
   vtkNew<vtkPoints> points_;
-  vtkNew<vtkCellArray> vertices_;
-  vtkNew<vtkFloatArray> radius_, velocity_, omega_, orientation_;
+  vtkNew<vtkCellArray> vertices_, triangles_;
+  vtkNew<vtkFloatArray> radius_, velocity_, omega_, orientation_, normals_;
   vtkNew<vtkIntArray> body_, type_, shape_;
 };
 
@@ -205,6 +233,7 @@ std::string DumpClusterVtk::write_file(const std::vector<double>& rows) const {
   std::sort(sorted.begin(), sorted.end(), [](const Body& a, const Body& b) { return a.tag < b.tag; });
   FixClusterBodies* bodies = FixClusterBodies::find(lmp);
   Rows out;
+  std::map<int, shape::TriangleSurface> surfaces; // of the rounded bodies among the shapes
   for (const Body& body : sorted) {
     const Eigen::Vector3d x(body.x[0], body.x[1], body.x[2]);
     const int shape = static_cast<int>(body.shape);
@@ -213,6 +242,13 @@ std::string DumpClusterVtk::write_file(const std::vector<double>& rows) const {
       continue;
     }
     const Eigen::Quaterniond q(body.orientation[0], body.orientation[1], body.orientation[2], body.orientation[3]);
+    if (const shape::RoundedHull* hull = bodies->shapes()[shape].hull()) {
+      const auto [surface, fresh] = surfaces.try_emplace(shape);
+      if (fresh)
+        surface->second = shape::rounded_surface(*hull, kSurfaceSteps);
+      out.add(body, x, q, surface->second);
+      continue;
+    }
     for (const shape::Sphere& sphere : bodies->shapes()[shape].spheres())
       out.add(body, x + q * sphere.centre, sphere.radius);
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// dump cluster/vtk: all sub-spheres (or one row per body) as a VTK file per dump step, for ParaView.
+// dump cluster/vtk: all sub-spheres and surfaces (or one row per body) as a VTK file per dump step, for ParaView.
 #pragma once
 
 #include <mpi.h>

@@ -189,6 +189,11 @@ void FixWallGranCluster::collect_mesh(int i) {
   }
   const contact::SurfaceSpheres& spheres = bodies_->shapes().surface(bodies_->shape_id(i));
   const Eigen::Matrix3d rotation = base::row_major(bodies_->rotation(i));
+  if (spheres.hull) {
+    posed_.pose(spheres.core, rotation);
+    meshes_->touch(i, x, posed_, touches_);
+    return;
+  }
   gaps_.resize(spheres.count);
   meshes_->for_each_near(i, [&](int mesh, int triangle) {
     const contact::WallSurface plane = meshes_->plane(mesh, triangle);

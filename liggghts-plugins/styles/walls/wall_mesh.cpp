@@ -14,6 +14,8 @@
 #include "modify.h"
 #include "tri_mesh.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -122,20 +124,70 @@ void WallMeshes::touch(int mesh, int triangle, int atom, int sub, const Eigen::V
     normal = -base::vector3(to_wall) / distance;
   else
     tri_mesh->surfaceNorm(triangle, normal.data());
-  contact::WallTouch touch;
-  touch.atom = atom;
-  touch.history = nullptr;
-  touch.key = contact::WallContactKey(sub, mesh, id);
+  contact::WallTouch touch = at_triangle(mesh, triangle, atom, sub, bary);
   touch.normal = normal;
   touch.overlap = -gap;
   touch.radius = radius;
   touch.lever = arm - (radius + 0.5 * gap) * normal;
   touch.to_wall = arm - distance * normal;
+  touches.push_back(touch);
+}
+
+void WallMeshes::touch(int atom, const Eigen::Vector3d& x, const contact::PosedCore& body,
+                       std::vector<contact::WallTouch>& touches) const {
+  in_order_.clear();
+  for_each_near(atom, [&](int mesh, int triangle) {
+    if (plane(mesh, triangle).distance(x) < body.core->bound)
+      in_order_.push_back({mesh, triangle});
+  });
+  // By their ids, so that it is the same triangle on any rank that has a contact which others could have.
+  std::sort(in_order_.begin(), in_order_.end(), [&](const Near& a, const Near& b) {
+    return a.mesh != b.mesh ? a.mesh < b.mesh : meshes_[a.mesh]->id(a.triangle) < meshes_[b.mesh]->id(b.triangle);
+  });
+  for (auto first = in_order_.begin(); first != in_order_.end();) {
+    const int mesh = first->mesh;
+    const auto last = std::find_if(first, in_order_.end(), [&](const Near& near) { return near.mesh != mesh; });
+    triangles_.clear();
+    for (auto near = first; near != last; ++near) {
+      contact::MeshTriangle t;
+      for (int k = 0; k < 3; ++k) {
+        t.corner[k] = node(meshes_[mesh], near->triangle, k) - x;
+        t.edge_active[k] = meshes_[mesh]->edgeActive(near->triangle, k);
+      }
+      triangles_.push_back(t);
+    }
+    for (const auto& [number, c] : manifold_.touches({&body}, triangles_)) {
+      const contact::MeshTriangle& t = triangles_[number];
+      const Eigen::Vector3d to_wall = c.arm - c.distance * c.normal, from = to_wall - t.corner[0];
+      const Eigen::Vector3d e1 = t.corner[1] - t.corner[0], e2 = t.corner[2] - t.corner[0], area = e1.cross(e2);
+      const double b1 = area.dot(from.cross(e2)) / area.squaredNorm(),
+                   b2 = area.dot(e1.cross(from)) / area.squaredNorm();
+      const double bary[3] = {1 - b1 - b2, b1, b2};
+      const int sub = contact::feature_a(c.id) * contact::MeshManifold::features + contact::feature_b(c.id);
+      contact::WallTouch touch = at_triangle(mesh, first[number].triangle, atom, sub, bary);
+      touch.normal = c.normal;
+      touch.overlap = c.overlap();
+      touch.radius = c.radius_a;
+      touch.lever = c.contact_point();
+      touch.to_wall = to_wall;
+      touch.weight = c.weight;
+      touch.hertz_radius = body.core->contact_radius;
+      touches.push_back(touch);
+    }
+    first = last;
+  }
+}
+
+contact::WallTouch WallMeshes::at_triangle(int mesh, int triangle, int atom, int sub, const double* bary) const {
+  contact::WallTouch touch;
+  touch.atom = atom;
+  touch.history = nullptr;
+  touch.key = contact::WallContactKey(sub, mesh, meshes_[mesh]->id(triangle));
   touch.share = 1.0;
   touch.wall_type = fixes_[mesh]->atomTypeWall();
   touch.triangle = triangle;
   motion(mesh, triangle, bary, touch.wall_velocity, touch.wall_omega);
-  touches.push_back(touch);
+  return touch;
 }
 
 void WallMeshes::motion(int mesh, int triangle, const double* bary, Eigen::Vector3d& velocity,

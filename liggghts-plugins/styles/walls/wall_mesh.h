@@ -3,6 +3,7 @@
 // Triangle meshes of stock fix mesh/surface as walls: who is near which triangle, and where a sphere touches one.
 #pragma once
 
+#include "contact/mesh_manifold.h"
 #include "contact/wall_contact.h"
 #include "contact/wall_surface.h"
 
@@ -45,6 +46,9 @@ class WallMeshes {
   /// `arm`: from the body's centre x to the sphere's centre.
   void touch(int mesh, int triangle, int atom, int sub, const Eigen::Vector3d& x, const Eigen::Vector3d& arm,
              double radius, std::vector<contact::WallTouch>& touches) const;
+  /// Adds all contacts of a rounded body, posed at x, with the triangles near it.
+  void touch(int atom, const Eigen::Vector3d& x, const contact::PosedCore& body,
+             std::vector<contact::WallTouch>& touches) const;
   /// True if contacts with these two triangles (by id) of a mesh are one, so that history passes from one to the other.
   bool coplanar(int mesh, int id1, int id2) const;
   /// Tells the mesh of a force on it, for stock's own stress output.
@@ -58,6 +62,7 @@ class WallMeshes {
     int mesh;
     int triangle;
   };
+  contact::WallTouch at_triangle(int mesh, int triangle, int atom, int sub, const double* bary) const;
   /// Of the mesh's material at barycentric coordinates, and of the triangle as a rigid body.
   void motion(int mesh, int triangle, const double* bary, Eigen::Vector3d& velocity, Eigen::Vector3d& omega) const;
 
@@ -68,6 +73,10 @@ class WallMeshes {
   std::vector<bool> list_is_ours_;
   std::vector<int> first_;
   std::vector<Near> near_;
+  // Of the rounded body at hand.
+  mutable contact::MeshManifold manifold_;
+  mutable std::vector<Near> in_order_;
+  mutable std::vector<contact::MeshTriangle> triangles_;
 };
 
 } // namespace eccentra::styles
