@@ -6,6 +6,7 @@
 #include "shape/principal_frame.h"
 #include "shape/rounded_eccentricity.h"
 #include "shape/rounded_moments.h"
+#include "shape/rounded_surface.h"
 #include "shape/shape_keywords.h"
 
 #include <Eigen/Geometry>
@@ -401,6 +402,54 @@ TEST(SmoothGeometry, HullsAreThinned) {
   EXPECT_EQ(core.edges.size(), 12u);
   EXPECT_NEAR(least_width(core), 6. / 7, 1e-6);
   EXPECT_NEAR(least_width(box_core({1, 2, 3})), 2, 1e-14);
+}
+
+// Closed, right side out, on the body's surface; its volume comes to the body's as it gets finer.
+TEST(SmoothGeometry, SurfaceToDraw) {
+  for (const char* line :
+       {"smooth cube rounding .15", "smooth box 1 3 3 rounding 1", "smooth box 1 1 3 rounding 1",
+        "smooth cube rounding 1", "smooth disk aspect .31 rounding .5", "smooth disk aspect .31 rounding 1"}) {
+    const RoundedHull hull = made(line, 1);
+    double error[2];
+    for (int way = 0; way < 2; ++way) {
+      const eccentra::shape::TriangleSurface surface = eccentra::shape::rounded_surface(hull, way ? 16 : 8);
+      for (const auto& p : surface.points) {
+        EXPECT_NEAR(hull.distance_to_core(p.position).distance, hull.radius(), 1e-12) << line;
+        EXPECT_NEAR((p.normal.cross(hull.distance_to_core(p.position).normal)).norm(), 0, 1e-9) << line;
+        EXPECT_LT(p.vertex, static_cast<int>(hull.points().size())) << line;
+      }
+      double volume = 0;
+      Vector3d area = Vector3d::Zero();
+      for (const auto& t : surface.triangles) {
+        const Vector3d &a = surface.points[t[0]].position, &b = surface.points[t[1]].position,
+                       &c = surface.points[t[2]].position;
+        volume += a.dot(b.cross(c)) / 6;
+        area += (b - a).cross(c - a) / 2;
+        EXPECT_GE((b - a).cross(c - a).dot(surface.points[t[0]].normal), -1e-15) << line;
+      }
+      EXPECT_LT(area.norm(), 1e-12) << line;
+      error[way] = 1 - volume / hull.volume();
+    }
+    EXPECT_GT(error[1], 0) << line;
+    EXPECT_LT(error[1], 0.01) << line;
+    EXPECT_NEAR(error[0] / error[1], 4, 0.4) << line; // second order
+  }
+}
+
+// A body meets another as it meets a sphere or a plane where that is what the other is.
+TEST(SmoothGeometry, EccentricityAgainstOtherBodies) {
+  std::size_t used = 0;
+  const auto shape = [&](const std::vector<std::string>& words) { return make_shape(words, 0, used, 1); };
+  const ClusterShape cube = shape({"smooth", "cube", "rounding", ".3"}),
+                     ball = shape({"smooth", "cube", "rounding", "1"}), sphere = shape({"sphere", "1"}),
+                     cluster = shape({"cube", "8"});
+  const double on_sphere = eccentra::shape::eccentricity_sphere(cube, 0.5).mean();
+  EXPECT_NEAR(eccentricity_cluster(cube, ball).mean(), on_sphere, 3e-3);
+  EXPECT_NEAR(eccentricity_cluster(cube, sphere).mean(), on_sphere, 3e-3);
+  EXPECT_NEAR(eccentricity_cluster(cluster, ball).mean(), eccentricity_cluster(cluster, sphere).mean(), 1e-9);
+  const double both = eccentricity_cluster(cube, cube).mean();
+  EXPECT_GT(both, eccentra::shape::eccentricity_plane(sphere).mean());
+  EXPECT_LT(both, eccentra::shape::eccentricity_plane(cube).max());
 }
 
 void expect_refused(const std::string& line, double diameter, const std::string& part) {

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 namespace {
 
@@ -46,21 +47,30 @@ std::vector<shape::Sphere> spheres_within(const PlacedBody& body, const Eigen::V
   return within;
 }
 
-/// The distance of the true surfaces, at least one of which is a rounded body's.
-bool hulls_touch(const PlacedBody& a, const PlacedBody& b, const Eigen::Vector3d& offset) {
+/// Of the true surfaces, at least one of which is a rounded body's: how deep they overlap [m] where that is deepest
+/// (negative: how far they are apart), and the smaller radius there. Cores in each other count as touching.
+struct HullOverlap {
+  double depth, radius;
+};
+HullOverlap hull_overlap(const PlacedBody& a, const PlacedBody& b, const Eigen::Vector3d& offset) {
   contact::PosedCore hull, other;
   if (a.surface && b.surface) {
     hull.pose(a.surface->core, a.turn);
     other.pose(b.surface->core, b.turn);
-    return contact::gjk_distance(hull, other, offset) <= a.surface->core.radius + b.surface->core.radius;
+    const double ra = a.surface->core.radius, rb = b.surface->core.radius;
+    return {ra + rb - contact::gjk_distance(hull, other, offset), std::min(ra, rb)};
   }
   const PlacedBody &rounded = a.surface ? a : b, &spheres = a.surface ? b : a;
+  const double radius = rounded.surface->core.radius;
   hull.pose(rounded.surface->core, rounded.turn);
   const Eigen::Vector3d to_spheres = a.surface ? offset : Eigen::Vector3d(-offset);
-  return std::any_of(spheres.spheres->begin(), spheres.spheres->end(), [&](const shape::Sphere& s) {
-    return contact::distance_to(hull, to_spheres + spheres.turn * s.centre).distance <=
-           rounded.surface->core.radius + s.radius;
-  });
+  HullOverlap deepest{-std::numeric_limits<double>::max(), radius};
+  for (const shape::Sphere& s : *spheres.spheres) {
+    const double distance = contact::distance_to(hull, to_spheres + spheres.turn * s.centre).distance;
+    if (const double depth = radius + s.radius - distance; depth > deepest.depth)
+      deepest = {depth, std::min(radius, s.radius)};
+  }
+  return deepest;
 }
 
 } // namespace
@@ -70,7 +80,7 @@ bool bodies_touch(const PlacedBody& a, const PlacedBody& b, const Eigen::Vector3
   if (offset.squaredNorm() > range * range)
     return false;
   if (a.surface || b.surface)
-    return hulls_touch(a, b, offset);
+    return hull_overlap(a, b, offset).depth >= 0;
   const std::vector<shape::Sphere> of_a = spheres_within(a, a.turn.transpose() * offset, b.bounding_radius);
   const std::vector<shape::Sphere> of_b = spheres_within(b, b.turn.transpose() * -offset, a.bounding_radius);
   const Eigen::Matrix3d b_to_a = a.turn.transpose() * b.turn;
@@ -87,6 +97,10 @@ bool bodies_touch(const PlacedBody& a, const PlacedBody& b, const Eigen::Vector3
 }
 
 double deepest_overlap(const PlacedBody& a, const PlacedBody& b, const Eigen::Vector3d& offset) {
+  if (a.surface || b.surface) {
+    const HullOverlap found = hull_overlap(a, b, offset);
+    return std::max(0., found.depth / found.radius);
+  }
   double deepest = 0;
   for (const shape::Sphere& s : spheres_within(a, a.turn.transpose() * offset, b.bounding_radius))
     for (const shape::Sphere& t : spheres_within(b, b.turn.transpose() * -offset, a.bounding_radius)) {

@@ -35,7 +35,7 @@ struct PlacedBody {
 /// `offset` from A's [m], world frame.
 bool bodies_touch(const PlacedBody& a, const PlacedBody& b, const Eigen::Vector3d& offset);
 
-/// The deepest overlap of their sub-spheres, as part of the smaller one's radius; 0 where none touches.
+/// The deepest overlap of their sub-spheres or rounded surfaces, as part of the smaller radius; 0 where none touches.
 double deepest_overlap(const PlacedBody& a, const PlacedBody& b, const Eigen::Vector3d& offset);
 
 /// Bodies that a new one must not run into. Stock's list of what is near an insertion knows positions and bounding

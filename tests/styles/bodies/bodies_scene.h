@@ -43,6 +43,11 @@ inline void use_clusters(LiggghtsSession& session, const std::string& arguments 
                  "\npair_coeff * *\nfix integrate all nve/cluster\n");
 }
 
+inline shape::ClusterShape shape_of(const std::vector<std::string>& arguments, double diameter = 6.35e-3) {
+  std::size_t used = 0;
+  return shape::make_shape(arguments, 0, used, diameter);
+}
+
 inline shape::ClusterShape shape_of(const std::string& family, const std::string& count, double diameter = 6.35e-3) {
   std::size_t used = 0;
   return shape::make_shape({family, count}, 0, used, diameter);

@@ -22,8 +22,9 @@ constexpr int rows = 4, layers = 4;
 void fill(LiggghtsSession& session) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal(0, 1);
-  const std::vector<shape::ClusterShape> shapes = {shape_of("cube", "8"), shape_of("disk", "7"),
-                                                   shape_of("cube", "64")};
+  const std::vector<shape::ClusterShape> shapes = {shape_of("cube", "8"), shape_of("disk", "7"), shape_of("cube", "64"),
+                                                   shape_of({"smooth", "cube", "rounding", "0.15"}),
+                                                   shape_of({"smooth", "disk", "aspect", "0.31", "rounding", "0.5"})};
   int n = 0;
   for (int c = 0; c < layers; ++c)
     for (int a = 0; a < rows; ++a)
@@ -34,10 +35,10 @@ void fill(LiggghtsSession& session) {
         start.omega = 20 * Eigen::Vector3d(normal(random), normal(random), normal(random));
         start.orientation =
             Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
-        if (n % 4 == 3)
+        if (n % 6 == 5)
           add_sphere(session, start, 3.2e-3);
         else
-          add_body(session, shapes[n % 4], start);
+          add_body(session, shapes[n % 6], start);
       }
   Start leaving;
   leaving.position = Eigen::Vector3d(0.095, 0, 0);

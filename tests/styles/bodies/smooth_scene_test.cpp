@@ -5,10 +5,13 @@
 
 #include "contact/gjk.h"
 #include "shape/rounded_hull.h"
+#include "shape/rounded_surface.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <fstream>
 #include <random>
 #include <sstream>
 
@@ -221,6 +224,62 @@ TEST(SmoothScene, MixedBedSettlesAndRestartsToTheDigit) {
     }
   }
   EXPECT_EQ(end[0], end[1]);
+}
+
+// The ridge of a mesh under the middle of a face: the edges of the face bounce off it as off a body.
+TEST(SmoothScene, RidgeOfAMesh) {
+  std::ofstream stl("ridge.stl");
+  const char* points[6] = {"-0.02 -0.02 -0.02", "-0.02 0.02 -0.02", "0 -0.02 0",
+                           "0 0.02 0",          "0.02 -0.02 -0.02", "0.02 0.02 -0.02"};
+  stl << "solid ridge\n";
+  for (const auto& t : {std::array{0, 2, 1}, {1, 2, 3}, {2, 4, 3}, {3, 4, 5}})
+    stl << "facet normal 0 0 1\nouter loop\nvertex " << points[t[0]] << "\nvertex " << points[t[1]] << "\nvertex "
+        << points[t[2]] << "\nendloop\nendfacet\n";
+  stl << "endsolid ridge\n";
+  stl.close();
+  LiggghtsSession session;
+  Material material;
+  material.restitution = 1;
+  material.friction = 0;
+  open_box(session, material);
+  use_clusters(session);
+  session.script("fix mesh all mesh/surface file ridge.stl type 1\n"
+                 "fix ridge all wall/gran/cluster model hertz tangential history mesh n_meshes 1 meshes mesh\n");
+  const shape::ClusterShape cube = shape_from("smooth cube rounding .15");
+  const double half = cube.hull()->support({0, 0, 1}).z() + cube.hull()->radius();
+  Start start;
+  start.position = {0, 0, half + 1e-5};
+  start.velocity.z() = -0.2;
+  add_body(session, cube, start);
+  session.script("timestep 2e-6\nrun 0\n");
+  int most = 0;
+  for (int k = 0; k < 40 && session.atom().v[0][2] < 0.1999; ++k) {
+    session.command("run 50 pre no post no");
+    most = std::max(most, static_cast<int>(session.lammps().modify->find_fix_id("ridge")->compute_scalar()));
+  }
+  EXPECT_EQ(most, 2);
+  EXPECT_NEAR(session.atom().v[0][2], 0.2, 1e-5);
+  EXPECT_LT(Eigen::Map<Vector3d>(session.atom().omega[0]).norm(), 1e-6);
+}
+
+// A file of dump cluster/vtk has the surface of a rounded body beside the sub-spheres of a cluster.
+TEST(SmoothScene, DumpOfSurfaces) {
+  LiggghtsSession session;
+  open_box(session, Material());
+  use_clusters(session);
+  const shape::ClusterShape cube = shape_from("smooth cube rounding .15");
+  Start start;
+  add_body(session, cube, start);
+  start.position.x() = 0.02;
+  add_body(session, shape_of("cube", "8"), start);
+  session.script("dump d all cluster/vtk 1 smooth_*.vtp\nrun 0\n");
+  std::ifstream file("smooth_0.vtp", std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  const shape::TriangleSurface surface = shape::rounded_surface(*cube.hull(), 3);
+  EXPECT_NE(text.str().find("NumberOfPoints=\"" + std::to_string(surface.points.size() + 8) + "\""), std::string::npos);
+  EXPECT_NE(text.str().find("NumberOfPolys=\"" + std::to_string(surface.triangles.size()) + "\""), std::string::npos);
+  EXPECT_NE(text.str().find("NumberOfVerts=\"8\""), std::string::npos);
 }
 
 // insert/pack places them by their true surfaces: closer than bounding spheres, none in another.
