@@ -4,7 +4,9 @@
 #pragma once
 
 #include "contact/contact_law.h"
+#include "contact/manifold.h"
 #include "contact/no_friction.h"
+#include "contact/surface_spheres.h"
 #include "contact/wall_contact.h"
 #include "contact/wall_history.h"
 #include "styles/bodies/contact_records.h"
