@@ -4,6 +4,7 @@
 #pragma once
 
 #include "contact/contact_core.h"
+#include "contact/hand_over.h"
 
 #include <Eigen/Geometry>
 
@@ -91,5 +92,29 @@ void extremes_on_arc(const Rim& rim, double low, double slope_low, double high, 
     slope_low = slope_next;
   }
 }
+
+/// The spring of an arc with S = sum of u over its closest points less that over its farthest ones, an end from which
+/// u falls being one of the former: of the potential S (1 - u_0 / S) (1 - u_1 / S), u_0 and u_1 at the ends, what each
+/// closest point counts (farthest ones: minus that), and what the springs of the ends lose.
+struct ArcSpring {
+  double share = 0;
+  double loss[2] = {0, 0};
+
+  /// `slope` of the distance at the ends, both the way in which the arc runs.
+  ArcSpring(const double (&end_overlap)[2], const double (&slope)[2], const std::vector<ArcExtreme>& extremes,
+            double reach) {
+    const auto energy = [](double overlap) { return overlap > 0 ? spring_energy(overlap) : 0; };
+    const double u[2] = {energy(end_overlap[0]), energy(end_overlap[1])};
+    const bool closest[2] = {!(slope[0] < 0), !(slope[1] > 0)};
+    double sum = (closest[0] ? u[0] : 0) + (closest[1] ? u[1] : 0);
+    for (const ArcExtreme& e : extremes)
+      sum += (e.closest ? 1 : -1) * energy(reach - e.point.at.distance);
+    if (!(sum > 0))
+      return;
+    share = 1 - u[0] / sum * (u[1] / sum);
+    for (int k = 0; k < 2; ++k)
+      loss[k] = 1 - u[1 - k] / sum - (closest[k] ? share : 0);
+  }
+};
 
 } // namespace eccentra::contact

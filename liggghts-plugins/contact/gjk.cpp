@@ -159,8 +159,8 @@ double gjk_distance(const PosedCore& a, const PosedCore& b, const Vector3d& offs
         break; // a plane separates them: the tetrahedron is too flat to tell
       return 0;
     }
-    if (square >= best)
-      break; // round-off
+    if (!(square < best))
+      break; // round-off, or a simplex too flat for a closest point
     best = square;
     v = next;
   }

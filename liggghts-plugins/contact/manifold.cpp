@@ -310,22 +310,14 @@ void Manifolds::take_arc(const Pair& pair, const ArcState& state, double& gap) {
   extremes_on_arc(rim, angle, slope_from, angle + step, slope_to, pieces, distance, extremes_);
   if (extremes_.empty())
     return; // an end is closest
-  const auto energy = [&](double at) { return at < reach ? spring_energy(reach - at) : 0; };
-  const double u_from = energy(from.distance), u_to = energy(to.distance);
-  double sum = (slope_from < 0 ? 0 : u_from) + (slope_to > 0 ? 0 : u_to);
-  for (const ArcExtreme& e : extremes_) {
-    sum += (e.closest ? 1 : -1) * energy(e.point.at.distance);
+  for (const ArcExtreme& e : extremes_)
     gap = std::min(gap, e.point.at.distance - reach);
-  }
-  if (!(sum > 0))
-    return;
-  const double share = 1 - u_from / sum * (u_to / sum);
-  const double loss[2] = {1 - u_to / sum - (slope_from < 0 ? 0 : share), 1 - u_from / sum - (slope_to > 0 ? 0 : share)};
+  const ArcSpring spring({reach - from.distance, reach - to.distance}, {slope_from, slope_to}, extremes_, reach);
   const int touching[2] = {from.contact, to.contact};
   for (int k = 0; k < 2; ++k)
     if (touching[k] >= 0)
-      contacts_[touching[k]].weight -= loss[k];
-  if (share <= no_weight)
+      contacts_[touching[k]].weight -= spring.loss[k];
+  if (spring.share <= no_weight)
     return;
   const double radius_own = radius_of(own, 0), radius_a = of_b ? reach - radius_own : radius_own;
   const int own_feature = core.line_feature(state.arc);
@@ -341,7 +333,7 @@ void Manifolds::take_arc(const Pair& pair, const ArcState& state, double& gap) {
     // Further ones on the same arc have the numbers behind the solid's.
     contacts_.push_back({of_b ? feature_id(other, own_feature) : feature_id(own_feature, other), !e.closest,
                          of_b ? Vector3d(on - at.distance * at.normal) : on, of_b ? Vector3d(-at.normal) : at.normal,
-                         at.distance, reach, radius_a, e.closest ? share : -share});
+                         at.distance, reach, radius_a, e.closest ? spring.share : -spring.share});
     ++other;
   }
 }

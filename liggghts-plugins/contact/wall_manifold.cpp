@@ -17,9 +17,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Rims flatter on a plane than this part of their radius have no deepest point.
-constexpr double flat = 1e-12;
-
 /// Contacts of one body with one wall, under construction.
 template <typename Distance> class WallContacts {
  public:
@@ -41,7 +38,7 @@ template <typename Distance> class WallContacts {
     }
   }
 
-  /// The closest point of each arc of a disk's rims.
+  /// The closest or farthest point of each arc of a disk's rims.
   void take_arcs() {
     const double reach = core_.radius + extra_, step = 2 * M_PI / core_.ring;
     for (int rim_number = 0; rim_number < core_.rims; ++rim_number) {
@@ -54,10 +51,19 @@ template <typename Distance> class WallContacts {
         const double unit = core_.half.x(), angle = k * step,
                      slope_from = at_[from].normal.dot(rim.tangent(angle)) / unit,
                      slope_to = at_[to].normal.dot(rim.tangent(angle + step)) / unit;
-        if (!(slope_from < -flat) || !(slope_to > flat))
+        extremes_.clear();
+        extremes_on_arc(rim, angle, slope_from, angle + step, slope_to, 1, distance_, extremes_);
+        if (extremes_.empty())
           continue;
-        const RimPoint best = closest_on_arc(rim, angle, slope_from, angle + step, slope_to, distance_);
-        add_line<2>(core_.line_feature(from), best.point, best.at, {from, to});
+        const ArcSpring spring({reach - at_[from].distance, reach - at_[to].distance}, {slope_from, slope_to},
+                               extremes_, reach);
+        for (int end = 0; end < 2; ++end)
+          if (const int own = contact_of_[end == 0 ? from : to]; own >= 0)
+            contacts_[own].weight -= spring.loss[end];
+        const shape::CoreDistance& at = extremes_[0].point.at;
+        if (spring.share > no_weight && at.distance < reach)
+          contacts_.push_back({core_.line_feature(from), !extremes_[0].closest, extremes_[0].point.point, at.normal,
+                               at.distance, reach, reach, extremes_[0].closest ? spring.share : -spring.share});
       }
     }
   }
@@ -125,6 +131,7 @@ template <typename Distance> class WallContacts {
   std::size_t first_;
   std::vector<shape::CoreDistance> at_;
   std::vector<int> contact_of_;
+  std::vector<ArcExtreme> extremes_;
 };
 
 /// Where the line from + t along is closest to an infinite axis through `on_axis`; false where they are parallel.
