@@ -103,6 +103,7 @@ double FeatureSearch::search(const BodyPair& pair, double skin) {
   if (a.core->solid != SolidKind::none)
     find_points(pair, true, skin, solids ? depth_b_.data() : nullptr, budget);
   std::sort(found_.begin(), found_.end());
+  found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
   return skin;
 }
 
@@ -174,8 +175,11 @@ void FeatureSearch::find_arcs(const BodyPair& pair, bool of_b, double limit) {
     for (int k = 0; k < core.ring; ++k) {
       const double next = distance(k + 1);
       if ((before + next - length) / 2 < limit) {
-        const int arc = core.line_feature(rim * core.ring + k);
-        found_.push_back(of_b ? feature_id(other, arc) : feature_id(arc, other));
+        // With its ends, so that their distances come the same way, whatever else is found.
+        const int arc = core.line_feature(rim * core.ring + k), from = rim * core.ring + k,
+                  to = rim * core.ring + (k + 1) % core.ring;
+        for (const int feature : {arc, from, to})
+          found_.push_back(of_b ? feature_id(other, feature) : feature_id(feature, other));
       }
       before = next;
     }

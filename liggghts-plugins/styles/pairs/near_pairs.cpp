@@ -121,6 +121,8 @@ void NearPairs::update_bodies(double dt, int held_groups) {
     const contact::SurfaceSpheres& surface = bodies_.shapes().surface(bodies_.shape_id(i));
     if (new_list_) {
       body = contact::BodyState();
+      constexpr double straight[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+      body.turn(straight); // of round bodies for good: others are seen from their frame
       body.mass = atom->rmass[i];
       body.type = atom->type[i];
       body.held = (atom->mask[i] & held_groups) != 0;
