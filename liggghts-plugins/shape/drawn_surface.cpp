@@ -145,7 +145,7 @@ class Builder {
 
 } // namespace
 
-TriangleSurface rounded_surface(const RoundedHull& hull, int steps) {
+TriangleSurface drawn_surface(const RoundedHull& hull, int steps) {
   Builder build(hull, steps);
   if (const DiskCore* disk = hull.disk()) {
     build.revolution(disk->radius, disk->half_height, points_on_rim);

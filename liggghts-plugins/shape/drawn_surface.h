@@ -27,6 +27,6 @@ struct TriangleSurface {
 
 /// Flat faces are as large as they are; curved parts have `steps` >= 1 strips across an edge or a rim, whose
 /// triangles lie inside of the body.
-TriangleSurface rounded_surface(const RoundedHull& hull, int steps);
+TriangleSurface drawn_surface(const RoundedHull& hull, int steps);
 
 } // namespace eccentra::shape

@@ -3,10 +3,10 @@
 // Rounded bodies: mass properties in two ways, shadows, support and distance, the table of rounded cubes.
 #include "shape/convex_hull.h"
 #include "shape/directions.h"
+#include "shape/drawn_surface.h"
 #include "shape/principal_frame.h"
 #include "shape/rounded_eccentricity.h"
 #include "shape/rounded_moments.h"
-#include "shape/rounded_surface.h"
 #include "shape/shape_keywords.h"
 
 #include <Eigen/Geometry>
@@ -412,7 +412,7 @@ TEST(SmoothGeometry, SurfaceToDraw) {
     const RoundedHull hull = made(line, 1);
     double error[2];
     for (int way = 0; way < 2; ++way) {
-      const eccentra::shape::TriangleSurface surface = eccentra::shape::rounded_surface(hull, way ? 16 : 8);
+      const eccentra::shape::TriangleSurface surface = eccentra::shape::drawn_surface(hull, way ? 16 : 8);
       for (const auto& p : surface.points) {
         EXPECT_NEAR(hull.distance_to_core(p.position).distance, hull.radius(), 1e-12) << line;
         EXPECT_NEAR((p.normal.cross(hull.distance_to_core(p.position).normal)).norm(), 0, 1e-9) << line;

@@ -26,7 +26,7 @@ namespace eccentra::shape {
 namespace {
 
 vtkSmartPointer<vtkPolyData> surface_of_hull(const RoundedHull& hull, const Eigen::Vector3d& offset, int fineness) {
-  const TriangleSurface surface = rounded_surface(hull, std::max(2, fineness / 8));
+  const TriangleSurface surface = drawn_surface(hull, std::max(2, fineness / 8));
   const double unit = hull.equivalent_radius();
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();

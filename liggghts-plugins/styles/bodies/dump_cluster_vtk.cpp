@@ -245,7 +245,7 @@ std::string DumpClusterVtk::write_file(const std::vector<double>& rows) const {
     if (const shape::RoundedHull* hull = bodies->shapes()[shape].hull()) {
       const auto [surface, fresh] = surfaces.try_emplace(shape);
       if (fresh)
-        surface->second = shape::rounded_surface(*hull, kSurfaceSteps);
+        surface->second = shape::drawn_surface(*hull, kSurfaceSteps);
       out.add(body, x, q, surface->second);
       continue;
     }

@@ -4,8 +4,8 @@
 #include "bodies_scene.h"
 
 #include "contact/gjk.h"
+#include "shape/drawn_surface.h"
 #include "shape/rounded_hull.h"
-#include "shape/rounded_surface.h"
 
 #include <gtest/gtest.h>
 
@@ -282,7 +282,7 @@ TEST(SmoothScene, DumpOfSurfaces) {
   std::ifstream file("smooth_0.vtp", std::ios::binary);
   std::ostringstream text;
   text << file.rdbuf();
-  const shape::TriangleSurface surface = shape::rounded_surface(*cube.hull(), 3);
+  const shape::TriangleSurface surface = shape::drawn_surface(*cube.hull(), 3);
   EXPECT_NE(text.str().find("NumberOfPoints=\"" + std::to_string(surface.points.size() + 8) + "\""), std::string::npos);
   EXPECT_NE(text.str().find("NumberOfPolys=\"" + std::to_string(surface.triangles.size()) + "\""), std::string::npos);
   EXPECT_NE(text.str().find("NumberOfVerts=\"8\""), std::string::npos);
