@@ -225,7 +225,7 @@ TEST(SmoothManifold, DistancesAgreeWithASlowReference) {
               worst_manifold, worst_disk);
   EXPECT_LT(worst_gjk, 1e-9);
   EXPECT_LT(worst_manifold, 1e-9);
-  EXPECT_LT(worst_disk, 5e-3); // an arc that has two closest points gives one of them
+  EXPECT_LT(worst_disk, 5e-3); // two closest points of one piece of an arc are not told apart
 }
 
 // Any pose, however deep: finite numbers, unit normals.
@@ -356,10 +356,10 @@ TEST(SmoothManifold, ForceIsContinuous) {
         disk_jumps += jumps;
       disk_paths += a.is_disk() || b.is_disk() ? paths : 0;
     }
-  // An arc between two points of a rim has one closest point: where it has two, which faces that just cover each
-  // other's rim can bring about, the contact moves from one to the other at once.
+  // Where flat faces lie exactly parallel and cover each other in part, as on a quarter of the paths, deepest points of
+  // rims are not unique: as the tilt changes its sign, springs move along their arcs.
   std::printf("disks: a jump on %d of %d paths\n", disk_jumps, disk_paths);
-  EXPECT_LT(disk_jumps, 0.2 * disk_paths);
+  EXPECT_LT(disk_jumps, 0.07 * disk_paths);
 }
 
 TEST(SmoothManifold, RoundingOneIsASphere) {
