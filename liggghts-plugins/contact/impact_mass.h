@@ -1,44 +1,65 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The mass that a contact feels: what an off-centre impact has to bring to rest is less than the body; pure.
+// The mass that contacts feel where two bodies, or a body and a wall, meet off centre, for many at a time; pure.
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
+#include "contact/contact_law.h"
 
 #include <cmath>
 
 namespace eccentra::contact {
 
-/// A frictionless impact at arm r from the centre of mass, with normal n, sees the mass m_c = 1 / (1/m + (r x n) . I^-1
-/// (r x n)). Dampers tuned to m instead of m_c take too much: at a rim sphere of a disk tilted by 30 degrees (m_c =
-/// 0.41 m) e = 0.9 becomes 0.85. So `contacts shared` multiplies the damping by sqrt(m_c / m). Several contacts at once
-/// act as one at their mean arm, weighted by stiffness and by how far their normals agree: a body that lands on a face
-/// is hit in the centre though none of its contacts is. Make one per body and wall (or body and body), add all
-/// contacts, then ask.
-class ImpactMass {
- public:
-  /// Adds a contact: stiffness S [any unit, the same for all], unit normal, arm from the centre of mass [m].
-  void add(double stiffness, const Eigen::Vector3d& n, const Eigen::Vector3d& arm) {
-    Eigen::Matrix<double, 6, 1> nn;
-    nn << n.x() * n.x(), n.y() * n.y(), n.z() * n.z(), n.x() * n.y(), n.x() * n.z(), n.y() * n.z();
-    arms_ += stiffness * arm * nn.transpose();
-    stiffness_ += stiffness * nn;
-  }
+/// Impacts of bodies A and B along a normal, as structure of arrays; world frame, SI. One row for a pair of bodies
+/// whose contacts have one normal, else one for each contact. No more than contacts in a block.
+struct ImpactRows {
+  static constexpr int capacity = ContactBlock::capacity;
+  using Row = double[capacity + contact_width];
 
-  /// m_c / m, in (0, 1], along normal n of one of the contacts that were added. `inverse_inertia`: of the inertia per
-  /// unit mass about the centre of mass, world frame [1/m2].
-  double ratio(const Eigen::Vector3d& n, const Eigen::Matrix3d& inverse_inertia) const {
-    Eigen::Matrix<double, 6, 1> weights;
-    weights << n.x() * n.x(), n.y() * n.y(), n.z() * n.z(), 2 * n.x() * n.y(), 2 * n.x() * n.z(), 2 * n.y() * n.z();
-    const Eigen::Vector3d arm = arms_ * weights / stiffness_.dot(weights);
-    const Eigen::Vector3d turn = arm.cross(n);
-    return 1 / (1 + turn.dot(inverse_inertia * turn));
-  }
+  // In: what all contacts of a pair have in common.
+  Row offset[3];                  ///< from A's centre to B's [m]
+  Row ease_a, ease_b;             ///< 1/m of A and B, 0 for one that is held, in a common unit; not both 0
+  Row inverse_a[6], inverse_b[6]; ///< of the inertia per unit mass: xx yy zz xy xz yz [1/m2]; 0 for spheres and walls
+  // In.
+  Row normal[3]; ///< unit
+  Row arm[3];    ///< from A's centre to where the contacts act together [m]
+  // Out.
+  Row factor; ///< sqrt(m_c / m*), in (0, 1]
 
- private:
-  Eigen::Matrix<double, 3, 6> arms_ = Eigen::Matrix<double, 3, 6>::Zero();
-  Eigen::Matrix<double, 6, 1> stiffness_ = Eigen::Matrix<double, 6, 1>::Zero();
+  /// Row `to` becomes row `from` of `other` but for its normal and arm.
+  void copy_bodies(int to, const ImpactRows& other, int from) {
+    for (int k = 0; k < 3; ++k)
+      offset[k][to] = other.offset[k][from];
+    ease_a[to] = other.ease_a[from];
+    ease_b[to] = other.ease_b[from];
+    for (int k = 0; k < 6; ++k) {
+      inverse_a[k][to] = other.inverse_a[k][from];
+      inverse_b[k][to] = other.inverse_b[k][from];
+    }
+  }
 };
+
+/// An impact off centre has to bring to rest only m_c, with 1/m_c = 1/m_A + 1/m_B + (r_A x n) . I_A^-1 (r_A x n) + the
+/// same of B; dampers tuned to m* = m_A m_B / (m_A + m_B) take too much (rim against rim of two disks, m_c = 0.39 m*: e
+/// = 0.9 becomes 0.84). Damping goes with the root of the mass. Rows 0..n-1, n a multiple of contact_width.
+inline void impact_factors(ImpactRows& p, int n) {
+  constexpr double tiny = 1e-300; // keeps 0/0 out of unused rows
+#pragma GCC ivdep
+  for (int m = 0; m < n; ++m) {
+    const double nx = p.normal[0][m], ny = p.normal[1][m], nz = p.normal[2][m];
+    const double ax = p.arm[0][m], ay = p.arm[1][m], az = p.arm[2][m];
+    const double bx = ax - p.offset[0][m], by = ay - p.offset[1][m], bz = az - p.offset[2][m];
+    // r x n, and what A turns by an impulse along n there; likewise B.
+    double x = ay * nz - az * ny, y = az * nx - ax * nz, z = ax * ny - ay * nx;
+    const double turn_a = p.inverse_a[0][m] * x * x + p.inverse_a[1][m] * y * y + p.inverse_a[2][m] * z * z +
+                          2 * (p.inverse_a[3][m] * x * y + p.inverse_a[4][m] * x * z + p.inverse_a[5][m] * y * z);
+    x = by * nz - bz * ny;
+    y = bz * nx - bx * nz;
+    z = bx * ny - by * nx;
+    const double turn_b = p.inverse_b[0][m] * x * x + p.inverse_b[1][m] * y * y + p.inverse_b[2][m] * z * z +
+                          2 * (p.inverse_b[3][m] * x * y + p.inverse_b[4][m] * x * z + p.inverse_b[5][m] * y * z);
+    const double straight = p.ease_a[m] + p.ease_b[m];
+    p.factor[m] = std::sqrt(straight / (straight + p.ease_a[m] * turn_a + p.ease_b[m] * turn_b + tiny));
+  }
+}
 
 } // namespace eccentra::contact

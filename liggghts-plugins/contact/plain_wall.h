@@ -54,6 +54,20 @@ inline double nearest(const PlainWall& wall, const double* x, double* n, double*
   return std::fabs(r - wall.radius);
 }
 
+/// Writes to place m of a block how the normal turns where a sphere moves past a wall that is round; `normal`, `from`
+/// and `distance` as nearest() has them.
+template <class Block>
+inline void set_curvature(const PlainWall& wall, const double* normal, const double* from, double distance, Block& c,
+                          int m) {
+  c.curvature[m] = 0;
+  if (wall.plane)
+    return;
+  for (int k = 0; k < 3; ++k)
+    c.separation[k][m] = wall.direction[k];
+  const bool outside = normal[0] * from[0] + normal[1] * from[1] + normal[2] * from[2] > 0;
+  c.curvature[m] = outside ? 1 / (wall.radius + distance) : -1 / (wall.radius - distance);
+}
+
 /// Writes to `hits` (room for spheres.padded) the sub-spheres that may touch the wall, ascending; returns how many.
 /// Single precision: this only preselects. `from`: from the wall's reference to the body's centre [m]; `rotation`: of
 /// the body, row-major. Directions of the wall are turned into the body frame once, so that a sub-sphere costs one

@@ -17,16 +17,12 @@ struct StockContactKeyword {
 /// By the keyword. Those that ours obey are not here.
 inline const std::map<std::string, StockContactKeyword>& stock_contact_keywords() {
   static const std::map<std::string, StockContactKeyword> arguments = {
-      {"limitForce", {"off", "dampers may pull at the end of a contact, as in stock's default"}},
       {"heating_normal_hertz", {"off", "contacts of clusters do not heat"}},
       {"heating_tangential_history", {"off", "contacts of clusters do not heat"}},
       {"heating_tracking", {"off", "contacts of clusters do not heat"}},
       {"computeElasticPotential", {"off", "energies of contacts are not summed"}},
       {"computeDissipatedEnergy", {"off", "energies of contacts are not summed"}},
       {"disableNormalWhenBonded", {"off", "there are no bonds"}},
-      {"absolute_damping", {"off", "it belongs to model hooke; damping follows coefficientRestitution"}},
-      {"viscous", {"off", "it belongs to model hooke; damping follows coefficientRestitution"}},
-      {"tangential_reduce", {"off", "there is no liquid"}},
       {"track_energy", {"no", "energies of contacts are not summed"}},
       {"store_force", {"no", "f_ID[1..3] is the force on the wall"}},
       {"store_force_contact", {"no", "compute contact/cluster/local lists the contacts"}},
@@ -37,6 +33,15 @@ inline const std::map<std::string, StockContactKeyword>& stock_contact_keywords(
       {"contact_area", {nullptr, "walls have no temperature"}},
   };
   return arguments;
+}
+
+/// Switches of LIGGGHTS's models that go to them where they are on.
+inline bool is_switch_of_a_model(const std::string& keyword) {
+  for (const char* known : {"limitForce", "absolute_damping", "viscous", "tangential_reduce", "ktToKnUser",
+                            "limitLiquidContent", "modifyLbVolume"})
+    if (keyword == known)
+      return true;
+  return false;
 }
 
 /// Empty where `value` of a stock keyword asks for nothing, else the end of a sentence after the name of the style.

@@ -13,26 +13,22 @@ namespace eccentra::contact {
 
 /// Linear stiffness and damping of one contact.
 struct ContactStiffness {
-  double normal;             ///< d Fn / d overlap = 2 E* sqrt(R* overlap) [N/m]
-  double tangential;         ///< 8 G* sqrt(R* overlap) [N/m]
+  double normal;             ///< d Fn / d overlap [N/m]
+  double tangential;         ///< [N/m]
   double normal_damping;     ///< [kg/s]
   double tangential_damping; ///< [kg/s]
 };
 
-/// Hertz-Mindlin, eq (12)-(17) with stock's damping; `damping` is beta = -ln e / sqrt(pi^2 + ln^2 e) >= 0.
-inline ContactStiffness hertz_stiffness(double youngs, double shear, double damping, double radius, double overlap,
-                                        double mass) {
-  const double a = std::sqrt(radius * overlap);
-  const double normal = 2 * youngs * a;
-  const double tangential = 8 * shear * a;
-  const double factor = 2 * std::sqrt(5. / 6.) * damping;
-  return {normal, tangential, factor * std::sqrt(normal * mass), factor * std::sqrt(tangential * mass)};
+/// Of contact m of a block whose stiffness and damping a model with this exponent has filled in.
+template <class Block> ContactStiffness stiffness_of(const Block& c, int m, double exponent) {
+  return {exponent * c.kn[m], c.kt[m], c.gamma_n[m], c.gamma_t[m]};
 }
 
-/// Overlap that an impact reaches [m] when `contacts` equal Hertz contacts share it at once (without damping).
-inline double impact_overlap(double youngs, double radius, double mass, double speed, int contacts) {
-  const double kn = contacts * 4. / 3. * youngs * std::sqrt(radius); // F = kn overlap^(3/2)
-  return std::pow(1.25 * mass * speed * speed / kn, 0.4);
+/// Overlap that an impact reaches [m] without damping, where F ~ overlap^exponent and the secant stiffness is `kn`
+/// [N/m] at the overlap `at` [m].
+inline double impact_overlap(double exponent, double kn, double at, double mass, double speed) {
+  const double work = 0.5 * (exponent + 1) * mass * speed * speed; // F overlap there
+  return std::pow(work * std::pow(at, exponent - 1) / kn, 1 / (exponent + 1));
 }
 
 /// Sums what a body's contacts resist: 6 x 6, translation and rotation of the body, the others held in place.

@@ -23,7 +23,6 @@ struct WallTouch {
   Eigen::Vector3d wall_omega;    ///< angular velocity of the wall
   double overlap;                ///< > 0
   double radius;                 ///< of the sphere
-  double share;                  ///< of stiffness and damping
   int wall_type;                 ///< material
   int triangle;                  ///< local index in the mesh of key.mesh(); -1 for primitive walls
   double weight = 1;             ///< of a rounded body's spring; negative: an elastic correction

@@ -36,12 +36,13 @@ class WallContactKey {
 
 struct WallHistoryEntry {
   WallContactKey key;
-  Eigen::Vector3d shear;   ///< tangential displacement [m], world frame
-  Eigen::Vector3d rolling; ///< what the rolling model remembers
+  Eigen::Vector3d shear;         ///< tangential displacement [m], world frame
+  Eigen::Vector3d rolling;       ///< what the rolling model remembers
+  std::vector<double> more = {}; ///< what contact models of LIGGGHTS's own remember
 };
 
-/// Rows are local atoms. Packed form of an atom: number of doubles that follow, then (key, shear x y z, rolling x y z)
-/// per contact.
+/// Rows are local atoms. Packed form of an atom: number of doubles that follow, then (key, shear x y z, rolling x y z,
+/// number of further values, these) per contact.
 class WallHistory {
  public:
   using Entries = std::vector<WallHistoryEntry>;
@@ -53,7 +54,7 @@ class WallHistory {
     if (from != to)
       of_atom_[to] = std::move(of_atom_[from]);
   }
-  int packed_size(int i) const { return 1 + kDoublesPerEntry * static_cast<int>(of_atom_[i].size()); }
+  int packed_size(int i) const { return packed_size(of_atom_[i]); }
   int pack(int i, double* buffer) const {
     int m = 0;
     buffer[m++] = packed_size(i) - 1;
@@ -62,6 +63,9 @@ class WallHistory {
       for (const Eigen::Vector3d& vector : {entry.shear, entry.rolling})
         for (int k = 0; k < 3; ++k)
           buffer[m++] = vector[k];
+      buffer[m++] = static_cast<double>(entry.more.size());
+      for (const double value : entry.more)
+        buffer[m++] = value;
     }
     return m;
   }
@@ -75,16 +79,19 @@ class WallHistory {
       for (Eigen::Vector3d* vector : {&entry.shear, &entry.rolling})
         for (int k = 0; k < 3; ++k)
           (*vector)[k] = buffer[m++];
+      entry.more.resize(static_cast<std::size_t>(buffer[m++]));
+      for (double& value : entry.more)
+        value = buffer[m++];
       of_atom_[i].push_back(entry);
     }
     return m;
   }
   /// Doubles of the largest atom.
   int largest() const {
-    std::size_t most = 0;
+    int most = 1;
     for (const Entries& entries : of_atom_)
-      most = std::max(most, entries.size());
-    return 1 + kDoublesPerEntry * static_cast<int>(most);
+      most = std::max(most, packed_size(entries));
+    return most;
   }
   double memory() const {
     double bytes = 0;
@@ -94,7 +101,13 @@ class WallHistory {
   }
 
  private:
-  static constexpr int kDoublesPerEntry = 7;
+  static constexpr int kDoublesPerEntry = 8;
+  static int packed_size(const Entries& entries) {
+    int size = 1;
+    for (const WallHistoryEntry& entry : entries)
+      size += kDoublesPerEntry + static_cast<int>(entry.more.size());
+    return size;
+  }
   std::vector<Entries> of_atom_;
 };
 

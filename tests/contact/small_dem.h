@@ -4,7 +4,7 @@
 // leapfrog. Small and slow; what the tests of contacts need.
 #pragma once
 
-#include "contact/contact_law.h"
+#include "contact/contact_models.h"
 #include "contact/feature_search.h"
 #include "contact/manifold.h"
 #include "contact/shared_contacts.h"
@@ -263,11 +263,7 @@ class SmallDem {
       return {force, torque};
     }
     block_.reserve(n + contact_width);
-    SharedStiffness shared;
     const double e = material.effective_youngs();
-    for (const Contact& c : found)
-      if (!c.elastic)
-        shared.add(c.weight * std::sqrt(radius * c.overlap()), c.overlap(), c.normal.x(), c.normal.y(), c.normal.z());
     for (int m = 0; m < n; ++m) {
       const Contact& c = found[m];
       most_overlap = std::max(most_overlap, c.overlap() / c.reach);
@@ -283,11 +279,11 @@ class SmallDem {
       block_.radius_a[m] = c.radius_a;
       block_.overlap[m] = c.overlap();
       block_.mass[m] = mass;
-      block_.youngs[m] = e;
-      block_.shear_modulus[m] = material.effective_shear();
-      block_.damping[m] = material.damping();
+      block_.material[0][m] = e;
+      block_.material[1][m] = material.effective_shear();
+      block_.material[2][m] = -material.damping();
       block_.friction[m] = material.friction;
-      block_.share[m] = c.elastic ? 0 : shared.damping_share(stiffness, c.normal.x(), c.normal.y(), c.normal.z());
+      block_.curvature[m] = 0;
       block_.contact_radius[m] = stiffness;
       if (c.elastic) { // no law for a negative radius: the force alone
         block_.contact_radius[m] = 0;
@@ -296,7 +292,17 @@ class SmallDem {
         torque += c.contact_point().cross(f);
       }
     }
-    contact_forces<DampingLaw::stock>(block_, n, dt, advance);
+    find_contact_model("hertz")->stiffness(block_, whole_vectors(n), DampingChoice());
+    ImpactRows central = {}; // no inertia: the mass is that of the bodies
+    central.ease_a[0] = 1;
+    const std::vector<int> group_of(n, 0);
+    shares_.apply(
+        block_, n, group_of.data(), 1,
+        [n](int) {
+          return ContactGroup{0, n};
+        },
+        central);
+    contact_forces(block_, whole_vectors(n), dt, advance, {FrictionBound::stock, false, false});
     History next;
     for (int m = 0; m < n; ++m) {
       force += Vector3d(block_.force[0][m], block_.force[1][m], block_.force[2][m]);
@@ -315,6 +321,7 @@ class SmallDem {
   FeatureSearch search_;
   Manifolds manifolds_;
   eccentra::contact::LargeContactBlock block_;
+  eccentra::contact::DampingShares shares_;
   bool started_ = false;
 };
 

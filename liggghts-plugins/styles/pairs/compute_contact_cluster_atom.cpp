@@ -61,7 +61,9 @@ class ComputeContactClusterAtom : public Compute {
     });
     for (int f = 0; f < modify->nfix; ++f)
       if (auto* wall = dynamic_cast<FixWallGranCluster*>(modify->fix[f]))
-        wall->for_each_touch([this](const contact::WallTouch& touch) {
+        wall->for_each_stiffness([this](const contact::WallTouch& touch, const contact::ContactStiffness&) {
+          if (touch.overlap <= 0)
+            return; // a liquid bridge
           if (atom->mask[touch.atom] & groupbit)
             array_atom[touch.atom][2] += 1;
         });

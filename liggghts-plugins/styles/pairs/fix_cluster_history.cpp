@@ -14,6 +14,7 @@
 #include "modify.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -24,7 +25,8 @@ using namespace LAMMPS_NS;
 namespace {
 const styles::RegisterFix<FixClusterHistory> registered(FixClusterHistory::style_name,
                                                         "history of cluster contacts (made by itself, never typed)");
-constexpr int words_per_touch = 5;
+// A record: how many touches, how many doubles in all they take, and those.
+constexpr int head_words = 2, words_per_touch = 5;
 } // namespace
 
 FixClusterHistory::FixClusterHistory(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {
@@ -105,37 +107,46 @@ void FixClusterHistory::restart(char* buf) {
 
 void FixClusterHistory::grow_arrays(int nmax) {
   touches_.resize(nmax);
+  more_.resize(nmax);
 }
 
 void FixClusterHistory::copy_arrays(int i, int j, int) {
   touches_[j] = touches_[i];
+  more_[j] = more_[i];
 }
 
 void FixClusterHistory::set_arrays(int i) {
   touches_[i].clear();
+  more_[i].clear();
 }
 
 int FixClusterHistory::pack_exchange(int i, double* buf) {
   int m = 0;
   buf[m++] = static_cast<double>(touches_[i].size());
+  buf[m++] = static_cast<double>(words_per_touch * touches_[i].size() + more_[i].size());
   for (const Touch& touch : touches_[i]) {
     buf[m++] = touch.partner;
     buf[m++] = touch.id;
     for (double s : touch.displacement)
       buf[m++] = s;
   }
+  for (const double value : more_[i])
+    buf[m++] = value;
   return m;
 }
 
 int FixClusterHistory::unpack_exchange(int i, double* buf) {
   int m = 0;
   touches_[i].resize(static_cast<std::size_t>(buf[m++]));
+  more_[i].resize(static_cast<std::size_t>(buf[m++]) - words_per_touch * touches_[i].size());
   for (Touch& touch : touches_[i]) {
     touch.partner = static_cast<int>(buf[m++]);
     touch.id = static_cast<int>(buf[m++]);
     for (double& s : touch.displacement)
       s = buf[m++];
   }
+  for (double& value : more_[i])
+    value = buf[m++];
   return m;
 }
 
@@ -149,18 +160,20 @@ void FixClusterHistory::unpack_restart(int i, int nth) {
   int m = 0;
   for (int k = 0; k < nth; ++k)
     m += static_cast<int>(extra[m]);
-  // The record's length, then the number of touches, which must fill it.
-  if (extra[m] < 2 || extra[m] != 2 + words_per_touch * extra[m + 1])
+  // The record's length, then the number of touches and of their doubles, which must fill it.
+  const double count = extra[m] < 1 + head_words ? -1 : extra[m + 1], words = count < 0 ? -1 : extra[m + 2];
+  if (count < 0 || words < words_per_touch * count || extra[m] != 1 + head_words + words ||
+      (count == 0 ? words != 0 : std::fmod(words, count) != 0))
     error->one(FLERR, damaged_restart("contacts of clusters").c_str());
   unpack_exchange(i, extra + m + 1);
 }
 
 int FixClusterHistory::size_restart(int i) {
-  return 2 + words_per_touch * static_cast<int>(touches_[i].size());
+  return 1 + head_words + words_per_touch * static_cast<int>(touches_[i].size()) + static_cast<int>(more_[i].size());
 }
 
 int FixClusterHistory::largest_record() {
-  int most = 2;
+  int most = 1 + head_words;
   for (int i = 0; i < atom->nlocal; ++i)
     most = std::max(most, size_restart(i));
   return most;
@@ -189,6 +202,8 @@ double FixClusterHistory::memory_usage() {
   double bytes = static_cast<double>(touches_.capacity() * sizeof(decltype(touches_)::value_type));
   for (const auto& list : touches_)
     bytes += static_cast<double>(list.capacity() * sizeof(Touch));
+  for (const auto& list : more_)
+    bytes += static_cast<double>(sizeof(list) + list.capacity() * sizeof(double));
   return bytes;
 }
 

@@ -40,6 +40,9 @@ class FixClusterHistory : public LAMMPS_NS::Fix {
   /// whether the pairs stay valid afterwards (no atom moves).
   std::function<void(bool keep)> hand_over;
   std::vector<Touch>& touches(int i) { return touches_[i]; }
+  /// What contact models of LIGGGHTS's own remember beside: `width` values per touch of atom i, one touch after the
+  /// other.
+  std::vector<double>& more(int i) { return more_[i]; }
   /// The pair style's counts on this rank: sub-contacts and pairs of bodies with sub-spheres close to each other.
   int contact_count = 0, near_pair_count = 0;
 
@@ -68,6 +71,7 @@ class FixClusterHistory : public LAMMPS_NS::Fix {
   int largest_record();
 
   std::vector<std::vector<Touch>> touches_;
+  std::vector<std::vector<double>> more_;
 };
 
 } // namespace eccentra::styles

@@ -6,7 +6,6 @@
 #include "base/eigen_views.h"
 #include "contact/feature_search.h"
 #include "contact/manifold.h"
-#include "contact/shared_contacts.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/entry/host_terminal.h"
 #include "styles/entry/style_registry.h"
@@ -17,11 +16,9 @@
 #include "comm.h"
 #include "error.h"
 #include "force.h"
-#include "global_properties.h"
 #include "modify.h"
 #include "neigh_list.h"
 #include "pair.h"
-#include "property_registry.h"
 #include "update.h"
 
 #include <cstdio>
@@ -113,15 +110,13 @@ void FixTimestepLimit::init() {
     fail("knows spheres and the bodies of nve/cluster, not those of stock fix multisphere: leave one of the two fixes "
          "out");
   const char* caller = "timestep/limit";
-  PropertyRegistry& registry = force->registry;
-  registry.registerProperty("Yeff", &MODEL_PARAMS::createYeff);
-  registry.registerProperty("Geff", &MODEL_PARAMS::createGeff);
-  registry.registerProperty("betaeff", &MODEL_PARAMS::createBetaEff);
-  registry.connect("Yeff", youngs_, caller);
-  registry.connect("Geff", shear_, caller);
-  registry.connect("betaeff", damping_, caller);
-  bodies_ = FixClusterBodies::find(lmp);
   const auto* pair = dynamic_cast<const PairGranCluster*>(force->pair);
+  stock_ = pair ? pair->stock() : nullptr;
+  model_ = stock_ ? nullptr : contact::find_contact_model(pair ? pair->arguments().names.normal : "hertz");
+  damping_ = pair ? pair->arguments().damping_choice() : contact::DampingChoice();
+  if (model_)
+    materials_.connect(lmp, *model_, false, caller);
+  bodies_ = FixClusterBodies::find(lmp);
   pair_shares_ = pair && pair->arguments().sharing == ContactSharing::shared;
 }
 
@@ -131,12 +126,6 @@ void FixTimestepLimit::setup(int) {
 
 void FixTimestepLimit::end_of_step() {
   evaluate();
-}
-
-contact::ContactStiffness FixTimestepLimit::stiffness(int type, int other_type, double radius, double overlap,
-                                                      double mass) const {
-  return contact::hertz_stiffness(youngs_[type][other_type], shear_[type][other_type], -damping_[type][other_type],
-                                  radius, overlap, mass);
 }
 
 Eigen::Matrix3d FixTimestepLimit::inertia(int i) const {
@@ -168,7 +157,6 @@ void FixTimestepLimit::add_pair(int i, int j, std::vector<contact::BodyStiffness
   const Eigen::Matrix3d rb = rotation_of(j);
   const double mass = atom->rmass[i] * atom->rmass[j] / (atom->rmass[i] + atom->rmass[j]);
   touching_.clear();
-  contact::SharedStiffness all;
   if (a.hull || b.hull) {
     contact::PosedCore posed_a, posed_b;
     posed_a.pose(a.core, ra);
@@ -184,10 +172,8 @@ void FixTimestepLimit::add_pair(int i, int j, std::vector<contact::BodyStiffness
         continue;
       const double radius_a = contact::hertz_radius(a, extra_of(i), c.radius_a),
                    radius_b = contact::hertz_radius(b, extra_of(j), c.reach - c.radius_a);
-      const double radius = c.weight * c.weight * radius_a * radius_b / (radius_a + radius_b); // a = w sqrt(R overlap)
-      const contact::ContactStiffness contact = stiffness(atom->type[i], atom->type[j], radius, c.overlap(), mass);
-      touching_.push_back({contact, c.normal, c.contact_point(), c.contact_point() - apart});
-      all.add(contact.normal, c.overlap(), c.normal.x(), c.normal.y(), c.normal.z());
+      const double contact_radius = c.weight * std::sqrt(radius_a * radius_b / (radius_a + radius_b) * c.overlap());
+      touching_.push_back({c.normal, c.contact_point(), c.overlap(), contact_radius, radius_a, radius_b});
     }
   }
   for (int p = 0; p < a.count && !a.hull && !b.hull; ++p) {
@@ -205,23 +191,91 @@ void FixTimestepLimit::add_pair(int i, int j, std::vector<contact::BodyStiffness
         continue;
       const Eigen::Vector3d n = line / distance;
       const double radius = radius_a * radius_b / (radius_a + radius_b);
-      const contact::ContactStiffness contact = stiffness(atom->type[i], atom->type[j], radius, overlap, mass);
-      touching_.push_back({contact, n, arm_a + (radius_a - 0.5 * overlap) * n, arm_b - (radius_b - 0.5 * overlap) * n});
-      all.add(contact.normal, overlap, n.x(), n.y(), n.z());
+      touching_.push_back(
+          {-n, arm_a + (radius_a - 0.5 * overlap) * n, overlap, std::sqrt(radius * overlap), radius_a, radius_b});
     }
+  }
+  if (touching_.empty())
+    return;
+  const int count = static_cast<int>(touching_.size());
+  block_.reserve(count);
+  for (int m = 0; m < count; ++m) {
+    const Touching& t = touching_[m];
+    for (int k = 0; k < 3; ++k) {
+      block_.normal[k][m] = t.n[k];
+      block_.arm[k][m] = t.arm[k];
+    }
+    block_.radius_a[m] = 0.5 * t.overlap; // the arm is that of the contact point
+    block_.overlap[m] = t.overlap;
+    block_.contact_radius[m] = t.contact_radius;
+    block_.mass[m] = mass;
+  }
+  if (stock_)
+    for (int m = 0; m < count; ++m)
+      stock_stiffness(m, atom->type[i], atom->type[j], touching_[m].radius_a, touching_[m].radius_b);
+  else
+    materials_.fill(block_, 0, count, atom->type[i], atom->type[j]);
+  if (!stock_)
+    model_->stiffness(block_, contact::whole_vectors(count), damping_);
+  if (pair_shares_) {
+    set_impact(i, j, apart);
+    group_of_.assign(count, 0);
+    shares_.apply(
+        block_, count, group_of_.data(), 1,
+        [count](int) {
+          return contact::ContactGroup{0, count};
+        },
+        impact_);
   }
   constexpr double kBothMove = 2;
-  for (Touching& t : touching_) {
-    if (pair_shares_) {
-      const double share = all.damping_share(t.contact.normal, t.n.x(), t.n.y(), t.n.z());
-      t.contact.normal_damping *= share;
-      t.contact.tangential_damping *= share;
-    }
+  for (int m = 0; m < count; ++m) {
+    const contact::ContactStiffness contact = contact::stiffness_of(block_, m, exponent());
+    const Touching& t = touching_[m];
     if (i < atom->nlocal)
-      bodies[i].add(t.contact, t.n, t.arm_a, kBothMove);
+      bodies[i].add(contact, t.n, t.arm, kBothMove);
     if (j < atom->nlocal)
-      bodies[j].add(t.contact, t.n, t.arm_b, kBothMove);
+      bodies[j].add(contact, t.n, t.arm - apart, kBothMove);
   }
+}
+
+double FixTimestepLimit::exponent() const {
+  return stock_ ? stock_->exponent() : model_->exponent;
+}
+
+/// Contact m of the block by LIGGGHTS's own normal model, at first loading.
+void FixTimestepLimit::stock_stiffness(int m, int type, int other, double radius_a, double radius_b) {
+  StockSubContact s = {};
+  s.type_a = type;
+  s.type_b = other;
+  s.radius_a = radius_a;
+  s.radius_b = radius_b;
+  s.separation[0] = radius_a + radius_b - block_.overlap[m];
+  s.mass = block_.mass[m];
+  s.mass_a = s.mass_b = 2 * s.mass;
+  no_history_.assign(stock_->history_size() + 1, 0.);
+  s.history = no_history_.data();
+  stock_->stiffness(s);
+  block_.kn[m] = s.kn;
+  block_.kt[m] = s.kt;
+  block_.gamma_n[m] = s.gamma_n;
+  block_.gamma_t[m] = s.gamma_t;
+}
+
+void FixTimestepLimit::set_impact(int i, int j, const Eigen::Vector3d& apart) {
+  for (int k = 0; k < 3; ++k)
+    impact_.offset[k][0] = apart[k];
+  impact_.ease_a[0] = atom->rmass[j];
+  impact_.ease_b[0] = atom->rmass[i];
+  const auto set = [this](contact::ImpactRows::Row* rows, int body) {
+    Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
+    if (bodies_ && !bodies_->is_round(body))
+      inverse = atom->rmass[body] * inertia(body).inverse();
+    const double six[6] = {inverse(0, 0), inverse(1, 1), inverse(2, 2), inverse(0, 1), inverse(0, 2), inverse(1, 2)};
+    for (int k = 0; k < 6; ++k)
+      rows[k][0] = six[k];
+  };
+  set(impact_.inverse_a, i);
+  set(impact_.inverse_b, j);
 }
 
 void FixTimestepLimit::add_body_contacts(std::vector<contact::BodyStiffness>& bodies) {
@@ -241,16 +295,8 @@ void FixTimestepLimit::add_wall_contacts(std::vector<contact::BodyStiffness>& bo
     auto* wall = dynamic_cast<FixWallGranCluster*>(modify->fix[f]);
     if (!wall)
       continue;
-    wall->for_each_touch([&](const contact::WallTouch& touch) {
-      const int i = touch.atom;
-      if (touch.weight <= 0)
-        return;
-      const double radius = touch.contact_radius() * touch.contact_radius() / touch.overlap;
-      contact::ContactStiffness contact =
-          stiffness(atom->type[i], touch.wall_type, radius, touch.overlap, atom->rmass[i]);
-      contact.normal_damping *= touch.share;
-      contact.tangential_damping *= touch.share;
-      bodies[i].add(contact, touch.normal, touch.lever, kWallRests);
+    wall->for_each_stiffness([&](const contact::WallTouch& touch, const contact::ContactStiffness& contact) {
+      bodies[touch.atom].add(contact, touch.normal, touch.lever, kWallRests);
     });
   }
 }
@@ -266,6 +312,26 @@ FixTimestepLimit::Limit FixTimestepLimit::limit_of_contacts() {
       limit = {step, atom->tag[i], bodies_ ? bodies_->shape_id(i) : -1, bodies[i].contacts()};
   }
   return limit;
+}
+
+/// At the largest overlap of an impact, on one contact of this effective radius.
+contact::ContactStiffness FixTimestepLimit::stiffness_of_impact(int type, double radius, double mass, double speed) {
+  block_.reserve(1);
+  block_.mass[0] = mass;
+  if (!stock_)
+    materials_.fill(block_, 0, 1, type, type);
+  const auto evaluate_at = [&](double overlap) {
+    block_.overlap[0] = overlap;
+    block_.contact_radius[0] = std::sqrt(radius * overlap);
+    if (stock_)
+      stock_stiffness(0, type, type, 2 * radius, 2 * radius);
+    else
+      model_->stiffness(block_, contact::contact_width, damping_);
+  };
+  const double some = 1e-3 * radius;
+  evaluate_at(some);
+  evaluate_at(contact::impact_overlap(exponent(), block_.kn[0], some, mass, speed));
+  return contact::stiffness_of(block_, 0, exponent());
 }
 
 /// The stiffest moment of a central impact of two like bodies, one contact at the smallest sub-sphere, at the largest
@@ -300,8 +366,7 @@ FixTimestepLimit::Limit FixTimestepLimit::limit_of_impacts() {
     const int type = atom->type[i];
     // Two like bodies: half the mass, half the radius. The stiffness grows with the 1/5 power of the speed only.
     const double mass = atom->rmass[i] / 2;
-    const double overlap = contact::impact_overlap(youngs_[type][type], radius / 2, mass, speed, 1);
-    const contact::ContactStiffness contact = stiffness(type, type, radius / 2, overlap, mass);
+    const contact::ContactStiffness contact = stiffness_of_impact(type, radius / 2, mass, speed);
     const double w = std::sqrt(contact.normal / mass);
     const double z = contact.normal_damping / (2 * mass * w);
     const double step = 2 / w * (std::sqrt(1 + z * z) - z);

@@ -3,7 +3,10 @@
 // fix timestep/limit: how large the time step may be, from the contacts that there are and the impacts that may come.
 #pragma once
 
+#include "contact/shared_contacts.h"
 #include "contact/timestep_limit_formula.h"
+#include "styles/bodies/contact_materials.h"
+#include "styles/models/stock_contact.h"
 
 #include <mpi.h>
 
@@ -40,20 +43,19 @@ class FixTimestepLimit : public LAMMPS_NS::Fix {
     int contacts;
   };
 
-  struct Touching {
-    contact::ContactStiffness contact;
-    Eigen::Vector3d n, arm_a, arm_b;
-  };
-
   [[noreturn]] void fail(const std::string& sentence);
   void evaluate();
   void add_body_contacts(std::vector<contact::BodyStiffness>& bodies);
   void add_wall_contacts(std::vector<contact::BodyStiffness>& bodies);
   void add_pair(int i, int j, std::vector<contact::BodyStiffness>& bodies);
+  double exponent() const;
+  void stock_stiffness(int m, int type, int other, double radius_a, double radius_b);
+  /// Writes what damping needs of the bodies of a pair, `apart` from i's centre to j's.
+  void set_impact(int i, int j, const Eigen::Vector3d& apart);
   Limit limit_of_contacts();
   Limit limit_of_impacts();
   Eigen::Matrix3d inertia(int i) const;
-  contact::ContactStiffness stiffness(int type, int other_type, double radius, double overlap, double mass) const;
+  contact::ContactStiffness stiffness_of_impact(int type, double radius, double mass, double speed);
   std::string describe(const Limit& limit) const;
   void report(const Limit& limit);
   /// To screen and log. `to_host`: also to the terminal, where a solver hosts us and keeps the screen for itself.
@@ -69,11 +71,22 @@ class FixTimestepLimit : public LAMMPS_NS::Fix {
   double said_worst_ = 0; ///< at the end of the last run
   double reported_ = 0.0; ///< critical step of the last report
   FixClusterBodies* bodies_ = nullptr;
+  const contact::ContactModel* model_ = nullptr;
+  contact::DampingChoice damping_;
+  StockContact* stock_ = nullptr; ///< of the pair style, where it has LIGGGHTS's own models
+  std::vector<double> no_history_;
+  ContactMaterials materials_;
   bool pair_shares_ = false;
-  std::vector<Touching> touching_; ///< sub-contacts of the pair at hand
-  double** youngs_ = nullptr;
-  double** shear_ = nullptr;
-  double** damping_ = nullptr;
+  /// Sub-contacts of the pair at hand: normal from B to A, arm from A's centre to the contact point.
+  struct Touching {
+    Eigen::Vector3d n, arm;
+    double overlap, contact_radius, radius_a, radius_b;
+  };
+  std::vector<Touching> touching_;
+  std::vector<int> group_of_; ///< all 0
+  contact::LargeContactBlock block_;
+  contact::ImpactRows impact_ = {};
+  contact::DampingShares shares_;
 };
 
 } // namespace eccentra::styles

@@ -22,6 +22,7 @@ void ContactList::clear(std::size_t pairs) {
   id.clear();
   for (auto& d : displacement)
     d.clear();
+  more.clear();
 }
 
 void ContactList::counts_to_places() {
@@ -40,6 +41,7 @@ void ContactList::make_room(std::size_t count) {
   fit(id);
   for (auto& d : displacement)
     fit(d);
+  more.reserve(width * room);
 }
 
 NearPairs::NearPairs(LAMMPS* lmp, FixClusterBodies& bodies, FixClusterHistory& history)
@@ -258,11 +260,21 @@ void NearPairs::take_history() {
       contacts.id.push_back(touch->id);
       for (int k = 0; k < 3; ++k)
         contacts.displacement[k].push_back(touch->displacement[k]);
+      if (contacts.width > 0) {
+        const int i = a_is_local ? p.a : p.b;
+        const std::vector<Touch>& touches = history_.touches(i);
+        const std::vector<double>& values = history_.more(i);
+        const std::size_t width = values.size() / touches.size(), at = width * (touch - touches.data());
+        for (std::size_t k = 0; k < static_cast<std::size_t>(contacts.width); ++k)
+          contacts.more.push_back(k < width ? values[at + k] : 0); // an earlier model may have remembered less
+      }
     }
   }
   contacts.first[pairs.size()] = contacts.size();
   for (int i = 0; i < atom->nlocal; ++i)
     history_.touches(i) = std::vector<Touch>(); // its memory, too
+  for (int i = 0; i < atom->nlocal; ++i)
+    history_.more(i) = std::vector<double>();
 }
 
 void NearPairs::hand_over(bool keep) {
@@ -271,6 +283,8 @@ void NearPairs::hand_over(bool keep) {
   live_ = keep;
   for (int i = 0; i < atom->nlocal; ++i)
     history_.touches(i).clear();
+  for (int i = 0; i < atom->nlocal; ++i)
+    history_.more(i).clear();
   // Other fixes may have inserted or deleted atoms just before us: then the indices of the list are stale.
   std::unordered_map<int, int> moved;
   const auto owner = [&](int index, int tag) {
@@ -302,17 +316,22 @@ void NearPairs::hand_over(bool keep) {
       for (int k = 0; k < 3; ++k)
         touch.displacement[k] = contacts.displacement[k][m];
       const int a = owner(p.a, p.tag_a), b = owner(p.b, p.tag_b);
+      const auto hand_to = [&](int i) {
+        history_.touches(i).push_back(touch);
+        const auto values = contacts.more.begin() + contacts.width * m;
+        history_.more(i).insert(history_.more(i).end(), values, values + contacts.width);
+      };
       if (a >= 0)
-        history_.touches(a).push_back(touch);
+        hand_to(a);
       touch.partner = p.tag_a;
       if (b >= 0)
-        history_.touches(b).push_back(touch);
+        hand_to(b);
     }
   }
 }
 
 double NearPairs::memory_usage() const {
-  const double contact_bytes = sizeof(int) + 3 * sizeof(double);
+  const double contact_bytes = sizeof(int) + (3 + contacts.width) * sizeof(double);
   return static_cast<double>(pairs.capacity()) * (sizeof(NearPair) + sizeof(PairWake) + 2 * sizeof(int)) +
          static_cast<double>(contacts.id.capacity() + next.id.capacity()) * contact_bytes +
          static_cast<double>(candidates.bytes()) + static_cast<double>(searches.capacity()) * sizeof(PairSearch);

@@ -101,6 +101,9 @@ struct ContactList {
   std::vector<int> first; ///< per pair, and one past the end
   std::vector<int> id;
   std::vector<double> displacement[3];
+  /// What contact models of LIGGGHTS's own remember: `width` values per contact.
+  std::vector<double> more;
+  int width = 0;
   /// No contacts; `first` is all 0.
   void clear(std::size_t pairs);
   /// Makes `first` of the counts that have been written one place behind each pair's own.
@@ -120,6 +123,8 @@ class NearPairs : protected LAMMPS_NS::Pointers {
   bool live() const { return live_; }
   /// Makes the pairs of a fresh neighbour list and takes the history over from the atoms.
   void rebuild(const LAMMPS_NS::NeighList& list);
+  /// Values per contact beside the displacement; before rebuild().
+  void set_history_width(int width) { contacts.width = next.width = width; }
   /// Copies the history to the atoms. `keep`: the pairs stay valid.
   void hand_over(bool keep);
 

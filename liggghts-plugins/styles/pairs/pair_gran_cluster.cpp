@@ -4,7 +4,6 @@
 // pair_gran_cluster_forces.cpp.
 #include "styles/pairs/pair_gran_cluster.h"
 
-#include "contact/stock_contact_keywords.h"
 #include "styles/bodies/fix_sleep_cluster.h"
 #include "styles/bodies/restart_version.h"
 #include "styles/entry/style_registry.h"
@@ -14,12 +13,13 @@
 #include "comm.h"
 #include "error.h"
 #include "force.h"
-#include "global_properties.h"
 #include "lammps.h"
 #include "neigh_list.h"
 #include "neighbor.h"
 
 #include <cstring>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 
 namespace eccentra::styles {
@@ -30,29 +30,12 @@ namespace {
 
 constexpr const char* style = "pair_style gran/cluster";
 
-/// Beside the bit of tangential_damping in restart files.
-constexpr int kFrictionless = 2;
-
 Pair* create_pair(LAMMPS* lmp) {
   return new PairGranCluster(lmp);
 }
 
-const styles::RegisterStyle registered({"pair_style", "gran/cluster",
-                                        "Hertz-Mindlin contacts between clusters (and plain spheres)", nullptr, nullptr,
-                                        nullptr, nullptr, &create_pair});
-
-/// A keyword with the values that it takes; `is_set` hears which one was typed.
-struct Choice {
-  const char* keyword;
-  std::vector<const char*> values;
-};
-
-std::string listed(const std::vector<const char*>& values) {
-  std::string text;
-  for (const char* value : values)
-    text += (text.empty() ? "" : ", ") + std::string(value);
-  return text;
-}
+const styles::RegisterStyle registered({"pair_style", "gran/cluster", "contacts between clusters (and plain spheres)",
+                                        nullptr, nullptr, nullptr, nullptr, &create_pair});
 
 } // namespace
 
@@ -65,64 +48,22 @@ PairGranCluster::~PairGranCluster() {
 }
 
 void PairGranCluster::settings(int narg, char** arg) {
-  const Choice choices[] = {
-      {"model", {"hertz"}},
-      {"tangential", {"off", "history"}},
-      {"rolling_friction", {"off"}},
-      {"cohesion", {"off"}},
-      {"surface", {"default"}},
-      {"tangential_damping", {"on", "off"}},
-      {"contacts", {"shared", "parallel"}},
-      {"damping", {"stock", "paper"}},
-  };
-  arguments_ = ClusterContactKeywords();
-  arguments_.tangential = false; // as in stock, where no tangential model is written
-  bool have_model = false;
-  for (int i = 0; i < narg; i += 2) {
-    const std::string keyword = arg[i];
-    const Choice* choice = nullptr;
-    if (contact::stock_contact_keywords().count(keyword)) {
-      if (const std::string refused = contact::refused_stock_keyword(keyword, i + 1 < narg ? arg[i + 1] : "");
-          !refused.empty())
-        error->all(FLERR, (std::string(style) + ": " + refused).c_str());
-      continue;
+  std::vector<std::string> words(arg, arg + narg);
+  typed_.clear();
+  for (const std::string& word : words)
+    typed_ += word + " ";
+  try {
+    arguments_ = read_contact_keywords(words);
+    stock_.reset();
+    if (!arguments_.in_blocks) {
+      stock_ = std::make_unique<StockContact>(lmp, false);
+      stock_->choose(arguments_.names, arguments_.options);
+      stock_->set_tangential(arguments_.synchronised, arguments_.friction);
+      stock_->set_rolling_radius(arguments_.rolling_radius);
     }
-    for (const Choice& c : choices)
-      if (keyword == c.keyword)
-        choice = &c;
-    if (!choice)
-      error->all(FLERR, (std::string(style) + ": unknown keyword '" + keyword +
-                         "': known are model, tangential, rolling_friction, contacts, damping, tangential_damping, "
-                         "cohesion and surface")
-                            .c_str());
-    if (i + 1 >= narg)
-      error->all(FLERR,
-                 (std::string(style) + ": keyword '" + keyword + "' needs a value: " + listed(choice->values)).c_str());
-    const std::string value = arg[i + 1];
-    bool known = false;
-    for (const char* v : choice->values)
-      known = known || value == v;
-    if (!known)
-      error->all(FLERR,
-                 (std::string(style) + ": " + keyword + " '" + value + "' is not offered: write " +
-                  listed(choice->values) + (keyword == "rolling_friction" ? " (clusters roll by their shape)" : ""))
-                     .c_str());
-    have_model = have_model || keyword == "model";
-    if (keyword == "contacts")
-      arguments_.sharing = value == "shared" ? ContactSharing::shared : ContactSharing::parallel;
-    if (keyword == "damping")
-      arguments_.damping = value == "stock" ? contact::DampingLaw::stock : contact::DampingLaw::paper;
-    if (keyword == "tangential")
-      arguments_.tangential = value != "off";
-    if (keyword == "tangential_damping")
-      arguments_.tangential_damping = value == "on";
+  } catch (const std::invalid_argument& problem) {
+    error->all(FLERR, (std::string(style) + ": " + problem.what()).c_str());
   }
-  if (!arguments_.tangential)
-    arguments_.tangential_damping = false;
-  if (!have_model)
-    error->all(
-        FLERR,
-        (std::string(style) + ": no contact model: write model hertz tangential history rolling_friction off").c_str());
 }
 
 void PairGranCluster::init_style() {
@@ -136,19 +77,14 @@ void PairGranCluster::init_style() {
 }
 
 void PairGranCluster::init_granular() {
-  PropertyRegistry& registry = force->registry;
-  registry.registerProperty("Yeff", &MODEL_PARAMS::createYeff, style);
-  registry.registerProperty("Geff", &MODEL_PARAMS::createGeff, style);
-  registry.registerProperty("betaeff", &MODEL_PARAMS::createBetaEff, style);
-  if (arguments_.tangential)
-    registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict, style);
-  registry.connect("Yeff", youngs_, style);
-  registry.connect("Geff", shear_, style);
-  registry.connect("betaeff", damping_, style);
-  if (arguments_.tangential)
-    registry.connect("coeffFrict", friction_, style);
-  else
-    friction_ = no_friction_.matrix(atom->ntypes);
+  reach_ = 1;
+  if (stock_) {
+    stock_->connect();
+    reach_ = stock_->reach();
+  } else {
+    model_ = contact::find_contact_model(arguments_.names.normal);
+    materials_.connect(lmp, *model_, arguments_.tangential, style);
+  }
 
   bodies_ = &FixClusterBodies::require(lmp);
   for (int id = 0; id < bodies_->shapes().size(); ++id)
@@ -158,6 +94,13 @@ void PairGranCluster::init_granular() {
                          " sub-spheres at its surface; contacts can number at most " +
                          std::to_string(contact::max_surface_spheres - 1) + ": use a coarser shape")
                             .c_str());
+  for (int id = 0; id < bodies_->shapes().size() && stock_; ++id)
+    if (bodies_->shapes().surface(id).hull)
+      error->all(FLERR,
+                 (std::string(style) + ": the rounded body '" + bodies_->shapes()[id].name() +
+                  "' has contacts of model hertz alone; expected model hertz, tangential history or off, no rolling "
+                  "friction and no cohesion, or a cluster of spheres")
+                     .c_str());
   for (int id = 0; id < bodies_->shapes().size() && !hulls_; ++id)
     if (bodies_->shapes().surface(id).hull)
       hulls_ = std::make_unique<HullContacts>();
@@ -165,6 +108,7 @@ void PairGranCluster::init_granular() {
   all_records_ = &contact_records(lmp);
   if (!near_)
     near_ = std::make_unique<NearPairs>(lmp, *bodies_, history);
+  near_->set_history_width(stock_ ? stock_->history_size() : 0);
   resting_ = FixSleepCluster::find(lmp) ? std::make_unique<RestingPairs>() : nullptr;
   history.hand_over = [this](bool keep) {
     if (resting_)
@@ -174,10 +118,11 @@ void PairGranCluster::init_granular() {
 }
 
 bool PairGranCluster::contact_match(const std::string type, const std::string model) {
-  const std::pair<const char*, const char*> ours[] = {{"model", "hertz"},
-                                                      {"tangential", arguments_.tangential ? "history" : "off"},
-                                                      {"rolling_friction", "off"},
-                                                      {"cohesion", "off"},
+  const StockModelNames& names = arguments_.names;
+  const std::pair<const char*, std::string> ours[] = {{"model", names.normal},
+                                                      {"tangential", names.tangential},
+                                                      {"rolling_friction", names.rolling},
+                                                      {"cohesion", names.cohesion},
                                                       {"surface", "default"}};
   for (const auto& [keyword, value] : ours)
     if (type == keyword)
@@ -191,26 +136,38 @@ int64_t PairGranCluster::hashcode() {
 }
 
 double PairGranCluster::stressStrainExponent() {
-  return 1.5;
+  return stock_ ? stock_->exponent() : contact::find_contact_model(arguments_.names.normal)->exponent;
 }
 
+/// The line as it was typed.
 void PairGranCluster::write_restart_settings(FILE* fp) {
-  const int values[] = {restart_mark, static_cast<int>(arguments_.sharing), static_cast<int>(arguments_.damping),
-                        (arguments_.tangential_damping ? 1 : 0) + (arguments_.tangential ? 0 : kFrictionless)};
-  fwrite(values, sizeof(int), 4, fp);
+  const int head[] = {restart_mark, static_cast<int>(typed_.size())};
+  fwrite(head, sizeof(int), 2, fp);
+  fwrite(typed_.data(), 1, typed_.size(), fp);
 }
 
 void PairGranCluster::read_restart_settings(FILE* fp, const int, const int) {
-  int values[4] = {restart_mark, 0, 0, 1};
-  if (comm->me == 0 && fread(values, sizeof(int), 4, fp) != 4)
+  int head[2] = {restart_mark, 0};
+  if (comm->me == 0 && fread(head, sizeof(int), 2, fp) != 2)
     error->one(FLERR, (std::string(style) + ": the restart file ends within the settings of the pair style").c_str());
-  MPI_Bcast(values, 4, MPI_INT, 0, world);
-  if (const std::string problem = restart_problem(values[0], style); !problem.empty())
+  MPI_Bcast(head, 2, MPI_INT, 0, world);
+  if (const std::string problem = restart_problem(head[0], style); !problem.empty())
     error->all(FLERR, problem.c_str());
-  arguments_.sharing = static_cast<ContactSharing>(values[1]);
-  arguments_.damping = static_cast<contact::DampingLaw>(values[2]);
-  arguments_.tangential_damping = (values[3] & 1) != 0;
-  arguments_.tangential = (values[3] & kFrictionless) == 0;
+  constexpr int longest = 1 << 16;
+  if (head[1] < 0 || head[1] > longest)
+    error->all(FLERR, damaged_restart(style).c_str());
+  std::string line(head[1], ' ');
+  if (comm->me == 0 && fread(line.data(), 1, line.size(), fp) != line.size())
+    error->one(FLERR, (std::string(style) + ": the restart file ends within the settings of the pair style").c_str());
+  MPI_Bcast(line.data(), head[1], MPI_CHAR, 0, world);
+  std::istringstream in(line);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;)
+    words.push_back(word);
+  std::vector<char*> arg;
+  for (std::string& word : words)
+    arg.push_back(word.data());
+  settings(static_cast<int>(arg.size()), arg.data());
 }
 
 double PairGranCluster::memory_usage() {

@@ -3,10 +3,12 @@
 // pair_style gran/cluster: contacts between clusters, and between clusters and plain spheres.
 #pragma once
 
-#include "contact/contact_law.h"
-#include "contact/no_friction.h"
-#include "contact/off_centre.h"
+#include "contact/contact_models.h"
+#include "contact/pair_forces.h"
+#include "contact/shared_contacts.h"
+#include "styles/bodies/contact_materials.h"
 #include "styles/bodies/contact_records.h"
+#include "styles/models/stock_contact.h"
 #include "styles/pairs/near_pairs.h"
 #include "styles/pairs/resting_pairs.h"
 #include "styles/pairs/waiting_pairs.h"
@@ -15,7 +17,10 @@
 
 #include "pair_gran.h"
 
+#include <Eigen/Core>
+
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace eccentra::contact {
@@ -29,13 +34,24 @@ class HullContacts;
 /// How several contacts of the same two bodies share damping.
 enum class ContactSharing { shared, parallel };
 
-/// The choices that a user types, also kept in restart files.
+/// The choices that a user types.
 struct ClusterContactKeywords {
+  StockModelNames names;            ///< `normal` is a row of contact_models() where in_blocks
+  bool in_blocks = true;            ///< else through LIGGGHTS's own classes
+  std::vector<std::string> options; ///< keywords and values for those
   ContactSharing sharing = ContactSharing::shared;
   contact::DampingLaw damping = contact::DampingLaw::stock;
   bool tangential_damping = true;
   bool tangential = true; ///< a tangential spring; without it contacts are free of friction
+  contact::FrictionBound friction = contact::FrictionBound::elastic;
+  bool synchronised = true; ///< the tangential spring advances by what contact points slide in the middle of a step
+  RollingRadius rolling_radius = RollingRadius::sub_sphere;
+
+  contact::DampingChoice damping_choice() const { return {damping, tangential_damping}; }
 };
+
+/// Reads them. Throws std::invalid_argument with one sentence that names the word, its value and the remedy.
+ClusterContactKeywords read_contact_keywords(const std::vector<std::string>& arguments);
 
 /// Pair style "gran/cluster". A PairGran, because stock code casts any style that has "gran" in its name to one.
 class PairGranCluster : public LAMMPS_NS::PairGran {
@@ -44,6 +60,8 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   ~PairGranCluster() override;
 
   const ClusterContactKeywords& arguments() const { return arguments_; }
+  /// The models of LIGGGHTS's own, or null where contacts are evaluated in blocks.
+  StockContact* stock() const { return stock_.get(); }
 
   void settings(int narg, char** arg) override;
   void init_style() override;
@@ -90,6 +108,9 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   void may_idle(int number, const double* offset, double gap);
   void search_candidates(NearPair& p, const contact::RelativePose& pose, const double* offset);
 
+  /// Gap across which sub-spheres of a pair interact at most [m].
+  double gap_reached(const NearPair& p) const { return (reach_ - 1) * p.largest_reach(); }
+
   // Pairs with a rounded body (pair_gran_cluster_hulls.cpp).
   void wait_hulls(int number, const NearPair& p, const contact::Double4& to_b);
   float search_features(const NearPair& p, const double* offset, float skin);
@@ -116,8 +137,11 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   template <class Block> void fill_materials(Block& block, const WaitingPair& waiting, int first, int number);
   void fill_inertia(const WaitingPair& waiting, int number);
   template <class Block> void recall_history(Block& block);
-  template <contact::DampingLaw law, bool known_geometry, class Block> void compute_block(Block& block, int padded);
-  template <class Block> void share_damping(Block& block, int padded);
+  template <bool known_geometry, class Block> void compute_block(Block& block, int padded);
+
+  // Contacts through LIGGGHTS's own classes (pair_gran_cluster_stock.cpp).
+  template <class Block> void compute_stock(Block& block);
+  template <class Block> void fill_stock(const Block& block, int m, StockSubContact& contact);
   template <class Block> void write_down(const Block& block);
   template <class Forces> void scatter(int pair, const Forces& forces);
 
@@ -131,7 +155,9 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   std::vector<int> awake_; ///< pairs that need a look; ~n where the candidates are no longer all that can touch
   WaitingPairs waiting_;
   PairInBlock in_block_[contact::ContactBlock::capacity];
-  contact::PairBlock pairs_ = {};
+  contact::ImpactRows pairs_ = {}; ///< one row per pair in the block
+  contact::PairForces sums_ = {};  ///< likewise
+  contact::DampingShares shares_;
   int pairs_in_block_ = 0;
   contact::ContactBlock block_ = {};
   std::unique_ptr<contact::LargeContactBlock> large_block_; ///< made when a pair needs it
@@ -146,11 +172,16 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   bool advance_ = false;
   ContactRecords* all_records_ = nullptr;
   ContactRecords* records_ = nullptr; ///< null in steps whose contacts no output wants
-  double** youngs_ = nullptr;
-  double** shear_ = nullptr;
-  double** damping_ = nullptr;
-  double** friction_ = nullptr;
-  contact::NoFriction no_friction_; ///< what friction_ is where there is no tangential model
+  std::string typed_;                 ///< all of the pair_style line, for restart files
+  const contact::ContactModel* model_ = nullptr;
+  std::unique_ptr<StockContact> stock_;
+  double reach_ = 1;               ///< sub-spheres interact up to this multiple of the sum of their radii
+  std::vector<double> block_more_; ///< ContactList::more of the contacts in the block
+  /// Where ContactList::more was in this step before it grew.
+  std::vector<std::vector<double>> outgrown_;
+  /// Torques that contacts of LIGGGHTS's models put on B beyond the opposite of what is on A, per pair in the block.
+  std::vector<Eigen::Vector3d> excess_torques_;
+  ContactMaterials materials_;
   int contact_count_ = 0;
   int near_count_ = 0;
 };

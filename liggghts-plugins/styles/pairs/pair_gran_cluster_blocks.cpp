@@ -21,15 +21,8 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-/// Up to so many contacts of a pair share damping each with each, more by way of tensors.
-constexpr int shared_each_with_each = 8;
-
 /// Faces of two lattices of spheres touch at up to four neighbours each (cubes) or seven (disks).
 constexpr int interpenetrating = 8;
-
-constexpr int whole_vectors(int count) {
-  return (count + contact::contact_width - 1) / contact::contact_width * contact::contact_width;
-}
 
 } // namespace
 
@@ -38,7 +31,7 @@ void PairGranCluster::evaluate_large() {
   const int count = waiting_.candidates();
   const NearPair& p = near_->pairs[waiting_.pair(0).number];
   const int finer = std::max(p.surface_a->count, p.surface_b->count);
-  if (count > interpenetrating * finer)
+  if (reach_ == 1 && count > interpenetrating * finer)
     error->one(FLERR, ("two clusters touch at up to " + std::to_string(count) + " sub-spheres at once, more than " +
                        std::to_string(interpenetrating) + " for each of the " + std::to_string(finer) +
                        " at the surface of the finer: they have run into each other: use a smaller time step (see fix "
@@ -59,7 +52,7 @@ void PairGranCluster::evaluate_waiting() {
 
 /// Finds the contacts of all pairs that wait, and adds their forces.
 template <class Block> void PairGranCluster::evaluate_waiting(Block& c) {
-  const std::size_t room = whole_vectors(waiting_.candidates()) + contact::contact_width;
+  const std::size_t room = contact::whole_vectors(waiting_.candidates()) + contact::contact_width;
   if (block_ids_.size() < room) {
     block_ids_.resize(room);
     block_pair_.resize(room);
@@ -90,14 +83,14 @@ template <bool known_geometry, class Block> void PairGranCluster::finish_block(B
   if (known_geometry)
     single_contacts_ = false;
   const bool spheres = single_contacts_;
-  const int padded = whole_vectors(filled_);
+  const int padded = contact::whole_vectors(filled_);
   for (int m = filled_; m < padded; ++m) {
     // A harmless contact in the unused lanes.
     c.separation[0][m] = 1;
     c.separation[1][m] = c.separation[2][m] = 0;
     c.radius_a[m] = c.radius_b[m] = 1;
     if (known_geometry) {
-      c.overlap[m] = c.contact_radius[m] = 0;
+      c.overlap[m] = c.contact_radius[m] = c.curvature[m] = 0;
       for (int k = 0; k < 3; ++k)
         c.normal[k][m] = c.arm[k][m] = 0;
     }
@@ -105,10 +98,10 @@ template <bool known_geometry, class Block> void PairGranCluster::finish_block(B
       c.history[k][m] = 0;
   }
   recall_history(c);
-  if (arguments_.damping == contact::DampingLaw::stock)
-    compute_block<contact::DampingLaw::stock, known_geometry>(c, padded);
+  if (stock_)
+    compute_stock(c);
   else
-    compute_block<contact::DampingLaw::paper, known_geometry>(c, padded);
+    compute_block<known_geometry>(c, padded);
   if (records_)
     write_down(c);
   ContactList& next = near_->next;
@@ -120,11 +113,11 @@ template <bool known_geometry, class Block> void PairGranCluster::finish_block(B
       scatter(n, c);
     return;
   }
-  contact::add_contact_forces(c, block_pair_.data(), filled_, pairs_, pairs_in_block_);
+  contact::add_contact_forces(c, block_pair_.data(), filled_, sums_, pairs_in_block_);
   if (known_geometry)
     add_corrections();
   for (int n = 0; n < pairs_in_block_; ++n)
-    scatter(n, pairs_);
+    scatter(n, sums_);
 }
 
 /// Writes the contacts of the block down for outputs. A pair with a ghost is met twice: the rank of A counts it.
@@ -154,7 +147,8 @@ template <class Block> void PairGranCluster::find_contacts(Block& c) {
         turn_b[0] * sphere_b[0] + turn_b[1] * sphere_b[1] + turn_b[2] * sphere_b[2] + p.to_b;
     const contact::Double4 separation = arm - from_b, square = separation * separation;
     const double ra = sphere_a[3] + p.extra_a, rb = sphere_b[3] + p.extra_b;
-    const double excess = square[0] + square[1] + square[2] - (ra + rb) * (ra + rb);
+    const double reach = reach_ * (ra + rb);
+    const double excess = square[0] + square[1] + square[2] - reach * reach;
     for (int k = 0; k < 3; ++k) {
       c.separation[k][m] = separation[k];
       c.arm[k][m] = arm[k];
@@ -178,7 +172,8 @@ template <class Block> void PairGranCluster::find_contacts_of_spheres(Block& c) 
     WaitingPair& p = waiting_.pair(n);
     const contact::Double4 separation = -p.to_b, square = separation * separation;
     const double ra = p.spheres_a[0][3] + p.extra_a, rb = p.spheres_b[0][3] + p.extra_b;
-    const double excess = square[0] + square[1] + square[2] - (ra + rb) * (ra + rb);
+    const double reach = reach_ * (ra + rb);
+    const double excess = square[0] + square[1] + square[2] - reach * reach;
     for (int k = 0; k < 3; ++k) {
       c.separation[k][m] = separation[k];
       c.arm[k][m] = 0;
@@ -199,10 +194,12 @@ template <class Block> void PairGranCluster::add_pair(Block& c, const WaitingPai
   const double *va = body_a.v, *vb = body_b.v, *wa = body_a.omega, *wb = body_b.omega;
   const double offset[3] = {waiting.to_b[0], waiting.to_b[1], waiting.to_b[2]};
   // Of B's matter, were it at A's centre.
-  const double velocity[3] = {va[0] - vb[0] + (wb[1] * offset[2] - wb[2] * offset[1]),
-                              va[1] - vb[1] + (wb[2] * offset[0] - wb[0] * offset[2]),
-                              va[2] - vb[2] + (wb[0] * offset[1] - wb[1] * offset[0])};
-  const double spin[3] = {wa[0] - wb[0], wa[1] - wb[1], wa[2] - wb[2]};
+  double velocity[3] = {va[0] - vb[0] + (wb[1] * offset[2] - wb[2] * offset[1]),
+                        va[1] - vb[1] + (wb[2] * offset[0] - wb[0] * offset[2]),
+                        va[2] - vb[2] + (wb[0] * offset[1] - wb[1] * offset[0])};
+  double spin[3] = {wa[0] - wb[0], wa[1] - wb[1], wa[2] - wb[2]};
+  if (arguments_.synchronised && advance_)
+    contact::to_middle_of_step(velocity, spin, va, vb, wb, 0.5 * update->dt);
   const int number = pairs_in_block_++, last = waiting.last_contact;
   for (int start = first; start < last; start += contact::contact_width)
     for (int k = 0; k < contact::contact_width; ++k) {
@@ -247,20 +244,14 @@ void PairGranCluster::fill_materials(Block& c, const WaitingPair& waiting, int f
     mass = b.mass;
   if (b.held)
     mass = a.mass;
-  const double youngs = youngs_[a.type][b.type], shear = shear_[a.type][b.type];
-  const double damping = -damping_[a.type][b.type], friction = friction_[a.type][b.type];
   one_kind_ = !large && number == 0;
   kind_a_ = near_->kind(near_->pairs[waiting.number].a);
   kind_b_ = near_->kind(near_->pairs[waiting.number].b);
   const int last = one_kind_ ? contact::ContactBlock::capacity + contact::contact_width : waiting.last_contact;
-  for (int n = first; n < last; ++n) {
+  for (int n = first; n < last; ++n)
     c.mass[n] = mass;
-    c.youngs[n] = youngs;
-    c.shear_modulus[n] = shear;
-    c.damping[n] = damping;
-    c.friction[n] = friction;
-    c.share[n] = 1;
-  }
+  if (!stock_)
+    materials_.fill(c, first, last, a.type, b.type);
   const int last_pair = one_kind_ ? contact::ContactBlock::capacity : number + 1;
   std::fill(pairs_.ease_a + number, pairs_.ease_a + last_pair, a.held && !b.held ? 0 : b.mass);
   std::fill(pairs_.ease_b + number, pairs_.ease_b + last_pair, b.held && !a.held ? 0 : a.mass);
@@ -281,6 +272,7 @@ void PairGranCluster::fill_inertia(const WaitingPair& waiting, int number) {
 /// Displacements of the contacts in the block: those of the last step, or 0 for a new contact.
 template <class Block> void PairGranCluster::recall_history(Block& c) {
   const ContactList& before = near_->contacts;
+  block_more_.assign(static_cast<std::size_t>(before.width) * filled_, 0.);
   // As a rule all of them were there in the last step, one after the other.
   const int start = in_block_[0].old_first;
   int changed = in_block_[pairs_in_block_ - 1].old_last - start != filled_;
@@ -292,6 +284,7 @@ template <class Block> void PairGranCluster::recall_history(Block& c) {
   if (!changed) {
     for (int k = 0; k < 3; ++k)
       std::copy_n(before.displacement[k].data() + start, filled_, c.history[k]);
+    std::copy_n(before.more.begin() + before.width * start, before.width * filled_, block_more_.begin());
     return;
   }
   for (int n = 0; n < pairs_in_block_; ++n) {
@@ -303,56 +296,24 @@ template <class Block> void PairGranCluster::recall_history(Block& c) {
       const bool known = old < p.old_last && before.id[old] == block_ids_[m];
       for (int k = 0; k < 3; ++k)
         c.history[k][m] = known ? before.displacement[k][old] : 0;
+      if (known)
+        std::copy_n(before.more.begin() + before.width * old, before.width, block_more_.begin() + before.width * m);
     }
   }
 }
 
-template <contact::DampingLaw law, bool known_geometry, class Block>
-void PairGranCluster::compute_block(Block& block, int padded) {
+template <bool known_geometry, class Block> void PairGranCluster::compute_block(Block& block, int padded) {
   if (!known_geometry)
     contact::contact_geometry(block, padded);
-  if (arguments_.sharing == ContactSharing::shared) {
-    if (single_contacts_)
-      std::fill_n(&block.share[0], padded, 1.);
-    else
-      share_damping(block, padded);
-  }
-  if (arguments_.tangential_damping)
-    contact::contact_forces<law, true>(block, padded, update->dt, advance_);
-  else
-    contact::contact_forces<law, false>(block, padded, update->dt, advance_);
-}
-
-/// Contacts of the same two bodies have one damper between them, tuned to the mass that they feel.
-template <class Block> void PairGranCluster::share_damping(Block& c, int padded) {
-  contact::start_shared_sums(c, padded);
-  contact::start_off_centre_sums(c, padded);
-  bool any_with_many = false;
-  contact::add_off_centre_sums(c, block_pair_.data(), filled_, pairs_, pairs_in_block_);
-  for (int n = 0; n < pairs_in_block_; ++n) {
-    const PairInBlock& p = in_block_[n];
-    if (p.last - p.first > shared_each_with_each) {
-      any_with_many = true;
-      continue;
-    }
-    for (int j = p.first; j < p.last; ++j)
-      for (int k = j + 1; k < p.last; ++k)
-        contact::add_shared_pair(c, j, k);
-  }
-  contact::finish_shared_sums(c, padded);
-  for (int n = 0; any_with_many && n < pairs_in_block_; ++n) {
-    const PairInBlock& p = in_block_[n];
-    if (p.last - p.first <= shared_each_with_each)
-      continue;
-    contact::SharedStiffness all;
-    for (int m = p.first; m < p.last; ++m)
-      all.add(c.contact_radius[m], c.overlap[m], c.normal[0][m], c.normal[1][m], c.normal[2][m]);
-    for (int m = p.first; m < p.last; ++m)
-      c.share[m] = all.damping_share(c.contact_radius[m], c.normal[0][m], c.normal[1][m], c.normal[2][m]);
-  }
-  contact::off_centre_factors(pairs_, whole_vectors(pairs_in_block_));
-  for (int m = 0; m < filled_; ++m)
-    c.share[m] *= pairs_.factor[block_pair_[m]];
+  model_->stiffness(block, padded, arguments_.damping_choice());
+  if (arguments_.sharing == ContactSharing::shared && !single_contacts_)
+    shares_.apply(
+        block, filled_, block_pair_.data(), pairs_in_block_,
+        [this](int k) {
+          return contact::ContactGroup{in_block_[k].first, in_block_[k].last};
+        },
+        pairs_);
+  contact::contact_forces(block, padded, update->dt, advance_, {arguments_.friction, arguments_.synchronised, false});
 }
 
 /// Adds the forces of a pair of bodies in the block. `forces` has rows of them, one place per pair.
@@ -366,6 +327,9 @@ template <class Forces> void PairGranCluster::scatter(int pair, const Forces& fo
   a.torque += contact::Double4{tx, ty, tz, 0};
   b.force -= contact::Double4{fx, fy, fz, 0};
   b.torque += contact::Double4{d[1] * fz - d[2] * fy - tx, d[2] * fx - d[0] * fz - ty, d[0] * fy - d[1] * fx - tz, 0};
+  if (stock_)
+    for (int k = 0; k < 3; ++k)
+      b.torque[k] += excess_torques_[pair][k];
   if (evflag)
     ev_tally_xyz(p.a, p.b, atom->nlocal, 0, 0., 0., fx, fy, fz, -d[0], -d[1], -d[2]);
 }

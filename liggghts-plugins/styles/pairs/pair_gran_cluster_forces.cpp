@@ -63,6 +63,7 @@ void PairGranCluster::compute_force(int eflag, int vflag, int addflag) {
   const int pair_count = static_cast<int>(near.pairs.size());
   near.next.clear(pair_count);
   near_count_ = 0;
+  outgrown_.clear();
   one_kind_ = false; // kinds are numbered anew with each list, and properties may change
   near.update_bodies(path_safety * update->dt, freeze_group_bit());
   if (hulls_)
@@ -149,7 +150,7 @@ void PairGranCluster::look_at(int number, bool fresh) {
 void PairGranCluster::renew_candidates(int number, NearPair& p, const double* offset) {
   if (p.candidate_count == 0) {
     const double between = std::sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]);
-    const double room = (1 - round_off) * between - p.range();
+    const double room = (1 - round_off) * between - p.range() - gap_reached(p);
     if (room > 0) {
       p.skin = 0;
       near_->note_apart(number, room);
@@ -175,10 +176,10 @@ int PairGranCluster::preselect(int number, const NearPair& p, const double* offs
   const contact::PosedShapes shapes = {*p.surface_a, *p.surface_b, static_cast<float>(p.extra_a + p.extra_b), pose};
   if (static_cast<int>(hits_.size()) < count + contact::CandidateStore::chunk)
     hits_.resize(2 * count + contact::CandidateStore::chunk);
-  const int hits = contact::overlapping_candidates(shapes, candidates, count, static_cast<float>(round_off * p.range()),
-                                                   hits_.data());
+  const int hits = contact::overlapping_candidates(
+      shapes, candidates, count, static_cast<float>(round_off * p.range() + gap_reached(p)), hits_.data());
   if (hits == 0)
-    may_idle(number, offset, contact::min_gap(shapes, candidates, count));
+    may_idle(number, offset, contact::min_gap(shapes, candidates, count) - gap_reached(p));
   return hits;
 }
 
@@ -193,13 +194,13 @@ void PairGranCluster::not_touching(const WaitingPair& waiting, int number_waitin
   for (int n = waiting_.first_candidate(number_waiting); n < waiting.last_candidate; ++n)
     least = std::min(least, excess[n]);
   if (p.direct()) {
-    const double sum = p.range();
+    const double sum = reach_ * p.range();
     const double gap = std::sqrt(least + sum * sum) - sum;
     near_->note_look(waiting.number, offset, (1 - round_off) * gap, true);
     return;
   }
   // (d - s) (d + s) = least; no candidate is farther away than the pair's skin allows.
-  const double widest = 2 * p.largest_reach() + 2 * p.skin;
+  const double widest = (1 + reach_) * p.largest_reach() + gap_reached(p) + 2 * p.skin;
   may_idle(waiting.number, offset, least / widest);
 }
 
@@ -221,7 +222,7 @@ void PairGranCluster::search_candidates(NearPair& p, const contact::RelativePose
   const double motion = update->dt * near_->relative_speed(p, offset);
   const float skin =
       static_cast<float>(std::clamp(skin_steps * motion, skin_narrowest * smallest, skin_widest * smallest));
-  const float margin = static_cast<float>(2 * round_off * p.range());
+  const float margin = static_cast<float>(2 * round_off * p.range() + gap_reached(p));
   const bool hull = hulls_ && has_hull(p);
   contact::SearchResult found;
   if (hull) {

@@ -114,7 +114,7 @@ void PairGranCluster::evaluate_large_hull(WaitingPair& pair, const contact::Cont
 template <class Block>
 void PairGranCluster::add_hull_pair(Block& c, WaitingPair& waiting, const contact::Contact* contacts, int count) {
   const NearPair& near = near_->pairs[waiting.number];
-  const double youngs = youngs_[waiting.a->type][waiting.b->type];
+  const double youngs = materials_.value(0, waiting.a->type, waiting.b->type);
   HullContacts::Correction correction{pairs_in_block_, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   bool corrected = false;
   const int first = filled_;
@@ -139,6 +139,7 @@ void PairGranCluster::add_hull_pair(Block& c, WaitingPair& waiting, const contac
     c.radius_a[m] = contact.radius_a;
     c.overlap[m] = overlap;
     c.contact_radius[m] = stiffness;
+    c.curvature[m] = 0;
     block_ids_[m] = contact.id;
     ++m;
   }
@@ -152,8 +153,8 @@ void PairGranCluster::add_hull_pair(Block& c, WaitingPair& waiting, const contac
 void PairGranCluster::add_corrections() {
   for (const HullContacts::Correction& c : hulls_->corrections)
     for (int k = 0; k < 3; ++k) {
-      pairs_.force[k][c.pair] += c.force[k];
-      pairs_.torque[k][c.pair] += c.torque[k];
+      sums_.force[k][c.pair] += c.force[k];
+      sums_.torque[k][c.pair] += c.torque[k];
     }
 }
 

@@ -42,8 +42,13 @@ RestingPairs::Kept PairGranCluster::evaluate_alone(int n) {
   const int count = next.size() - before_it;
   next.first[n + 1] = 0;
   near_->leave_alone(n);
-  for (int m = next.size() - count; m < next.size(); ++m)
-    kept.contacts.push_back({next.id[m], {next.displacement[0][m], next.displacement[1][m], next.displacement[2][m]}});
+  for (int m = next.size() - count; m < next.size(); ++m) {
+    const auto more = next.more.begin() + next.width * m;
+    kept.contacts.push_back({next.id[m],
+                             {next.displacement[0][m], next.displacement[1][m], next.displacement[2][m]},
+                             {more, more + next.width}});
+  }
+  next.more.resize(next.more.size() - next.width * count);
   next.id.resize(next.id.size() - count);
   for (auto& d : next.displacement)
     d.resize(d.size() - count);

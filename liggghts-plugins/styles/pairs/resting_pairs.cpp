@@ -78,6 +78,7 @@ void RestingPairs::give_back(NearPairs& near) {
   const ContactList& old = near.contacts;
   const int pairs = static_cast<int>(near.pairs.size());
   merged_.clear(pairs);
+  merged_.width = old.width;
   const auto copy = [&](int first_pair, int last_pair) { // last_pair is not copied
     const int shift = merged_.size() - old.first[first_pair], first = old.first[first_pair];
     const int last = old.first[last_pair];
@@ -87,6 +88,7 @@ void RestingPairs::give_back(NearPairs& near) {
     for (int k = 0; k < 3; ++k)
       merged_.displacement[k].insert(merged_.displacement[k].end(), old.displacement[k].begin() + first,
                                      old.displacement[k].begin() + last);
+    merged_.more.insert(merged_.more.end(), old.more.begin() + old.width * first, old.more.begin() + old.width * last);
   };
   int next = 0;
   for (const int n : woken_) {
@@ -98,6 +100,7 @@ void RestingPairs::give_back(NearPairs& near) {
         merged_.id.push_back(contact.id);
         for (int k = 0; k < 3; ++k)
           merged_.displacement[k].push_back(contact.displacement[k]);
+        merged_.more.insert(merged_.more.end(), contact.more.begin(), contact.more.end());
       }
       contact_count_ -= static_cast<int>(kept_[slot].contacts.size());
       kept_[slot].contacts.clear();

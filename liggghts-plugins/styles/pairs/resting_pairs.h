@@ -19,6 +19,7 @@ class RestingPairs {
   struct Contact {
     int id;
     double displacement[3];
+    std::vector<double> more; ///< ContactList::width values
   };
   struct Kept {
     int pair = 0;

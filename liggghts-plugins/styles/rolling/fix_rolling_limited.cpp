@@ -3,6 +3,8 @@
 // Assembles the trial spins, shares them with the ghosts, and applies the torques of the limiter.
 #include "styles/rolling/fix_rolling_limited.h"
 
+#include "base/eigen_views.h"
+#include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/entry/style_registry.h"
 
 #include "atom.h"
@@ -10,6 +12,8 @@
 #include "error.h"
 #include "modify.h"
 #include "update.h"
+
+#include <Eigen/Geometry>
 
 #include <cstring>
 #include <string>
@@ -91,12 +95,23 @@ void FixRollingLimited::pre_force(int) {
 void FixRollingLimited::post_force(int) {
   const int owned = atom->nlocal;
   const double dt = update->dt;
+  const FixClusterBodies* bodies = FixClusterBodies::find(lmp);
   trial_.resize(owned + atom->nghost);
   for (int i = 0; i < owned; ++i) {
     const Eigen::Map<const Eigen::Vector3d> omega(atom->omega[i]);
     const double caps = limiter_.cap_sum(i);
     if (caps <= 0.0 || !rotates(atom->mask[i])) {
       trial_[i] = {omega, 0.0};
+      continue;
+    }
+    if (bodies && bodies->shape_id(i) != FixClusterBodies::plain_sphere) {
+      // Spin after what acts on the body by now; torques to come meet its least moment of inertia at most.
+      const Eigen::Vector3d inertia = bodies->inertia(i);
+      const Eigen::Matrix3d turn = base::row_major(bodies->rotation(i));
+      const Eigen::Map<const Eigen::Vector3d> torque(atom->torque[i]);
+      const Eigen::Vector3d momentum = turn * inertia.cwiseProduct(turn.transpose() * omega);
+      const Eigen::Vector3d change = turn.transpose() * (torque - omega.cross(momentum));
+      trial_[i] = {omega + dt * (turn * change.cwiseQuotient(inertia)), dt * caps / inertia.minCoeff()};
       continue;
     }
     const double per_torque = dt / (kSphereInertia * atom->rmass[i] * atom->radius[i] * atom->radius[i]);

@@ -38,7 +38,7 @@ struct WallRollingContact {
   double tangential_damping;        ///< gamma_t [N s/m]
 };
 
-/// A rolling-friction model at walls. It acts on plain spheres: clusters roll by their shape.
+/// A rolling-friction model at walls.
 class WallRolling {
  public:
   virtual ~WallRolling() = default;
@@ -46,6 +46,8 @@ class WallRolling {
   virtual void read_arguments(const std::vector<std::string>& arguments, std::size_t& at) = 0;
   /// Before each run: fetch coefficients. Throws std::invalid_argument with one sentence where that is not possible.
   virtual void init(LAMMPS_NS::LAMMPS* lmp) = 0;
+  /// False for a model that stands for the shape of a particle, and so acts on plain spheres alone.
+  virtual bool for_clusters() const { return true; }
   /// Torque on the particle [N m]. Called once per contact and step.
   virtual Eigen::Vector3d torque(const WallRollingContact& contact) = 0;
 };

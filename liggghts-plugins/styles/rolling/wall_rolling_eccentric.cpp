@@ -33,6 +33,8 @@ class EccentricWallRolling : public styles::WallRolling {
                                   "... rolling_friction eccentric shape ..., too");
   }
 
+  bool for_clusters() const override { return false; }
+
   Eigen::Vector3d torque(const styles::WallRollingContact& contact) override {
     const double* const q = spheres_->orientation(contact.atom);
     const double depth = contact.elastic_normal / (contact.stiffness * contact.lever);

@@ -14,10 +14,8 @@
 #include "comm.h"
 #include "error.h"
 #include "force.h"
-#include "global_properties.h"
 #include "modify.h"
 #include "neighbor.h"
-#include "property_registry.h"
 #include "update.h"
 
 #include <cstring>
@@ -54,6 +52,11 @@ FixWallGranCluster::FixWallGranCluster(LAMMPS* lmp, int narg, char** arg) : Fix(
       smallest_type_ = meshes_->smallest_type();
       largest_type_ = meshes_->largest_type();
     }
+    if (!arguments_.in_blocks) {
+      stock_ = std::make_unique<StockContact>(lmp, true);
+      stock_->choose(arguments_.names, arguments_.options);
+      stock_->set_tangential(arguments_.synchronised, arguments_.friction);
+    }
   } catch (const std::invalid_argument& problem) {
     fail(problem.what());
   }
@@ -73,6 +76,7 @@ FixWallGranCluster::FixWallGranCluster(LAMMPS* lmp, int narg, char** arg) : Fix(
   time_depend = 0;
 
   block_ = std::make_unique<contact::ContactBlock>();
+  group_of_.resize(contact::ContactBlock::capacity);
   grow_arrays(atom->nmax);
   atom->add_callback(0);
   atom->add_callback(1);
@@ -113,20 +117,18 @@ void FixWallGranCluster::pre_delete(bool unfix) {
 void FixWallGranCluster::init() {
   if (std::strcmp(update->integrate_style, "verlet") != 0)
     fail("works with run_style verlet only, not '" + std::string(update->integrate_style) + "'");
-  const char* caller = "wall/gran/cluster";
-  PropertyRegistry& registry = force->registry;
-  registry.registerProperty("Yeff", &MODEL_PARAMS::createYeff);
-  registry.registerProperty("Geff", &MODEL_PARAMS::createGeff);
-  registry.registerProperty("betaeff", &MODEL_PARAMS::createBetaEff);
-  if (arguments_.tangential)
-    registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
-  registry.connect("Yeff", youngs_, caller);
-  registry.connect("Geff", shear_, caller);
-  registry.connect("betaeff", damping_, caller);
-  if (arguments_.tangential)
-    registry.connect("coeffFrict", friction_, caller);
-  else
-    friction_ = no_friction_.matrix(atom->ntypes);
+  reach_ = 1;
+  if (stock_) {
+    stock_->connect();
+    reach_ = stock_->reach();
+    if (reach_ > 1 && meshes_)
+      fail(
+          "cohesion '" + stock_->names().cohesion +
+          "' reaches across a gap and is offered at primitive walls alone; expected a primitive wall, or cohesion off");
+  } else {
+    model_ = contact::find_contact_model(arguments_.names.normal);
+    materials_.connect(lmp, *model_, arguments_.tangential, "wall/gran/cluster");
+  }
   if (arguments_.rolling)
     try {
       arguments_.rolling->init(lmp);
@@ -148,6 +150,13 @@ void FixWallGranCluster::init() {
       if (bodies_->shapes().surface(id).count > contact::WallContactKey::kMaxSubSpheres)
         fail("shape '" + bodies_->shapes()[id].name() + "' has more than " +
              std::to_string(contact::WallContactKey::kMaxSubSpheres) + " surface sub-spheres: use fewer");
+  if (stock_ && bodies_)
+    for (int id = 0; id < bodies_->shapes().size(); ++id)
+      if (bodies_->shapes().surface(id).hull)
+        fail("the rounded body '" + bodies_->shapes()[id].name() +
+             "' has contacts of model hertz alone; expected model hertz, tangential history or off and cohesion off, "
+             "or a "
+             "cluster of spheres");
   if (meshes_ && bodies_)
     for (int id = 0; id < bodies_->shapes().size(); ++id)
       if (bodies_->shapes().surface(id).hull && bodies_->shapes().surface(id).core.is_disk() && comm->me == 0)
@@ -160,9 +169,9 @@ void FixWallGranCluster::init() {
   near_list_stale_ = true;
 }
 
-/// Rolling models act on plain spheres. In a scene that has none and awaits none the word would do nothing.
+/// A model that acts on plain spheres would do nothing in a scene that has none and awaits none.
 void FixWallGranCluster::refuse_rolling_of_clusters_alone() {
-  if (!arguments_.rolling || !bodies_ || bodies_->shapes().size() == 0)
+  if (!arguments_.rolling || arguments_.rolling->for_clusters() || !bodies_ || bodies_->shapes().size() == 0)
     return;
   for (int f = 0; f < modify->nfix; ++f)
     if (std::strcmp(modify->fix[f]->style, "particletemplate/sphere") == 0)
@@ -194,7 +203,7 @@ void FixWallGranCluster::rebuild_near_list() {
   } else {
     for (int i = 0; i < atom->nlocal; ++i)
       if ((atom->mask[i] & groupbit) &&
-          arguments_.surface->distance(base::vector3(atom->x[i])) <= atom->radius[i] + neighbor->skin)
+          arguments_.surface->distance(base::vector3(atom->x[i])) <= reach_ * atom->radius[i] + neighbor->skin)
         near_.push_back(i);
   }
   std::size_t next = 0;

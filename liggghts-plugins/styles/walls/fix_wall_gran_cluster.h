@@ -3,13 +3,17 @@
 // fix wall/gran/cluster: walls for clusters and plain spheres, with the wall's velocity taken at the contact point.
 #pragma once
 
-#include "contact/contact_law.h"
+#include "contact/contact_core.h"
+#include "contact/contact_models.h"
 #include "contact/manifold.h"
-#include "contact/no_friction.h"
+#include "contact/shared_contacts.h"
 #include "contact/surface_spheres.h"
+#include "contact/timestep_limit_formula.h"
 #include "contact/wall_contact.h"
 #include "contact/wall_history.h"
+#include "styles/bodies/contact_materials.h"
 #include "styles/bodies/contact_records.h"
+#include "styles/models/stock_contact.h"
 #include "styles/walls/wall_arguments.h"
 #include "styles/walls/wall_mesh.h"
 
@@ -55,19 +59,31 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   double compute_scalar() override;
   double compute_vector(int n) override;
 
-  /// Visits the contacts that there are now, for whoever wants to know (fix timestep/limit). Forces and history stay.
-  template <class Visit> void for_each_touch(Visit visit) {
+  /// Visits the contacts that there are now, as visit(touch, contact::ContactStiffness), for whoever wants to know (fix
+  /// timestep/limit). Forces and history stay.
+  template <class Visit> void for_each_stiffness(Visit visit) {
     if (near_list_stale_)
       rebuild_near_list();
-    for (const int i : near_) {
-      touches_.clear();
-      find_touches(i);
-      if (arguments_.shared)
-        share_damping(i, 0);
-      for (const contact::WallTouch& touch : touches_)
-        visit(touch);
-    }
     touches_.clear();
+    for (const int i : near_) {
+      find_touches(i);
+      const int count = static_cast<int>(touches_.size());
+      if (count > 0) {
+        contact::LargeContactBlock& block = large_block(count);
+        for (int m = 0; m < count; ++m)
+          fill(block, m, touches_[m]);
+        begin_groups();
+        add_group(i, 0, count);
+        if (stock_)
+          stock_stiffness(block, touches_.data(), count);
+        else
+          stiffness(block, count);
+        for (int m = 0; m < count; ++m)
+          if (touches_[m].weight > 0)
+            visit(touches_[m], contact::stiffness_of(block, m, stock_ ? stock_->exponent() : model_->exponent));
+      }
+      touches_.clear();
+    }
   }
 
   // History migrates and restarts.
@@ -108,9 +124,6 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   contact::WallHistoryEntry old_entry(int i, const contact::WallTouch& touch) const;
   /// Hands the contacts their entries of the last step, or new ones.
   void renew_history(int i, std::size_t first);
-  /// Scales the damping of the atom's contacts, touches_[first] and after, to what all of them are together.
-  void share_damping(int i, std::size_t first);
-  template <class Stiffness> bool share_damping_of_one_normal(int i, std::size_t first, const Stiffness& stiffness);
   /// Forces on near_spheres_ and near_clusters_.
   void near_forces();
   bool stands_still() const;
@@ -133,14 +146,28 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   /// Writes those of the `count` sub-spheres in hits_ that touch to places `first` and after; returns the next free
   /// one.
   int add_cluster(const contact::PlainWall& wall, int i, int count, int first);
-  void share_damping_in_block(int i, int first, int last);
   void scatter_clusters(const contact::PlainWall& wall);
-  void evaluate(int n, bool advance);
-  void fill(int m, const contact::WallTouch& touch);
-  void scatter(int m, const contact::WallTouch& touch);
+  /// Contacts first..last-1 of the block are those of atom i; so share their damping.
+  void begin_groups() { groups_ = 0; }
+  void add_group(int i, int first, int last);
+  /// Stiffness and damping of contacts 0..n-1, which are those of the groups.
+  template <class Block> void stiffness(Block& block, int n);
+  template <class Block> void evaluate(Block& block, int n, bool advance);
+  template <class Block> void share_groups(Block& block, int n);
+  /// The same of contacts through LIGGGHTS's own classes.
+  StockSubContact stock_contact(const contact::WallTouch& touch);
+  template <class Block> void stock_stiffness(Block& block, const contact::WallTouch* touches, int n);
+  template <class Block> void stock_evaluate(Block& block, const contact::WallTouch* touches, int n, bool advance);
+  template <class Block> void fill(Block& block, int m, const contact::WallTouch& touch);
+  template <class Block> void set_curvature(Block& block, int m, const contact::WallTouch& touch) const;
+  template <class Block> void scatter(const Block& block, int m, const contact::WallTouch& touch);
+  template <class Block> void add_forces(Block& block, std::size_t first, std::size_t last);
+  contact::LargeContactBlock& large_block(int count);
   /// Torque [N m] of the rolling model on atom i from place m of the block, evaluated.
-  Eigen::Vector3d rolling_torque(int m, int i, int wall_type, const Eigen::Vector3d& wall_spin,
+  template <class Block>
+  Eigen::Vector3d rolling_torque(const Block& block, int m, int i, int wall_type, const Eigen::Vector3d& wall_spin,
                                  contact::WallHistoryEntry& entry);
+  bool rolls(int i) const { return arguments_.rolling && (arguments_.rolling->for_clusters() || is_plain_sphere(i)); }
   /// Looks whether an output wants the contacts of this step.
   void open_records();
   bool is_plain_sphere(int i) const;
@@ -159,12 +186,15 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   std::vector<char> asleep_;               ///< of near_, in the last step
   std::vector<Resting> resting_;           ///< of these, in the order of near_
   std::array<int, kBatch> in_block_{};
-  struct ClusterInBlock {
+  struct Group {
     int atom, first, last; ///< contacts first..last-1 of the block are this atom's
   };
-  std::array<ClusterInBlock, contact::ContactBlock::capacity> clusters_in_block_{};
+  std::array<Group, contact::ContactBlock::capacity> group_{};
+  int groups_ = 0;
+  std::vector<int> group_of_; ///< of the contacts in the block
+  contact::ImpactRows impacts_ = {};
+  contact::DampingShares shares_;
   std::array<int, contact::ContactBlock::capacity> sub_in_block_{};
-  int bodies_in_block_ = 0;
   std::vector<int> hits_; ///< sub-spheres of the cluster at hand that may touch
   bool near_list_stale_ = true;
   std::vector<contact::WallTouch> touches_; ///< of the particles at hand
@@ -172,18 +202,20 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   contact::PosedCore posed_;                ///< of the rounded body at hand
   std::vector<contact::Contact> hull_contacts_;
   std::unique_ptr<contact::ContactBlock> block_;
+  std::unique_ptr<contact::LargeContactBlock> large_block_; ///< made when an atom needs it
   ContactRecords* all_records_ = nullptr;
   ContactRecords* records_ = nullptr;          ///< null in steps whose contacts no output wants
   contact::WallHistory::Entries next_history_; ///< of the particle at hand
+  std::vector<double> no_history_;             ///< for contacts that only tell their stiffness
   std::array<double, 7> local_sums_{};         ///< force, torque, number of contacts on this rank
   std::array<double, 7> global_sums_{};
   long long summed_at_ = -1;
 
-  double** youngs_ = nullptr;
-  double** shear_ = nullptr;
-  double** damping_ = nullptr;
-  double** friction_ = nullptr;
-  contact::NoFriction no_friction_; ///< what friction_ is where there is no tangential model
+  const contact::ContactModel* model_ = nullptr;
+  std::unique_ptr<StockContact>
+      stock_;        ///< the models of LIGGGHTS's own, or null where contacts are evaluated in blocks
+  double reach_ = 1; ///< sub-spheres interact up to this multiple of their radii
+  ContactMaterials materials_;
 };
 
 } // namespace eccentra::styles

@@ -18,10 +18,11 @@ namespace eccentra::styles {
 void FixWallGranCluster::cluster_forces() {
   const contact::PlainWall wall(*arguments_.surface);
   int m = 0;
-  bodies_in_block_ = 0;
+  begin_groups();
   const auto flush = [&] {
-    evaluate(m, !update->setupflag);
+    evaluate(*block_, m, !update->setupflag);
     scatter_clusters(wall);
+    begin_groups();
     m = 0;
   };
   for (const int i : near_clusters_) {
@@ -77,6 +78,7 @@ int FixWallGranCluster::add_cluster(const contact::PlainWall& wall, int i, int c
       block.radius_a[m] = radius;
       block.overlap[m] = radius - distance;
       block.contact_radius[m] = std::sqrt(radius * (radius - distance));
+      contact::set_curvature(wall, normal, from, distance, block, m);
       sub_in_block_[m] = k;
       ++m;
     }
@@ -105,70 +107,22 @@ int FixWallGranCluster::add_cluster(const contact::PlainWall& wall, int i, int c
   }
   const double *omega = atom->omega[i], mass = atom->rmass[i];
   const int type = atom->type[i], wall_type = arguments_.type;
-  const double youngs = youngs_[type][wall_type], shear = shear_[type][wall_type];
-  const double damping = -damping_[type][wall_type], friction = friction_[type][wall_type];
   for (int n = first; n < m; ++n) {
     for (int d = 0; d < 3; ++d) {
       block.spin[d][n] = omega[d]; // the wall's own is in its velocity
       block.history[d][n] = entries[n - first].shear[d];
     }
     block.mass[n] = mass;
-    block.youngs[n] = youngs;
-    block.shear_modulus[n] = shear;
-    block.damping[n] = damping;
-    block.friction[n] = friction;
-    block.share[n] = 1;
   }
-  if (arguments_.shared)
-    share_damping_in_block(i, first, m);
-  ClusterInBlock& cluster = clusters_in_block_[bodies_in_block_++];
-  cluster.atom = i;
-  cluster.first = first;
-  cluster.last = m;
+  materials_.fill(block, first, m, type, wall_type);
+  add_group(i, first, m);
   return m;
-}
-
-// The formulas of SharedStiffness and ImpactMass, each contact with each. All contacts have the same materials, so that
-// sqrt(R* overlap) serves as stiffness; of a lever only the part across the normal counts, which is the arm's.
-void FixWallGranCluster::share_damping_in_block(int i, int first, int last) {
-  contact::ContactBlock& c = *block_;
-  const double* r = bodies_->rotation(i);
-  const Eigen::Vector3d& inertia = bodies_->shapes()[bodies_->shape_id(i)].inertia_per_mass();
-  const double inverse[3] = {1 / inertia[0], 1 / inertia[1], 1 / inertia[2]};
-  // sqrt(m_c / m) of an impact along n at the arm.
-  const auto impact_factor = [&](const double* arm, const double* n) {
-    const double turn[3] = {arm[1] * n[2] - arm[2] * n[1], arm[2] * n[0] - arm[0] * n[2],
-                            arm[0] * n[1] - arm[1] * n[0]};
-    double body[3];
-    contact::to_body(r, turn, body);
-    return 1 / std::sqrt(1 + body[0] * body[0] * inverse[0] + body[1] * body[1] * inverse[1] +
-                         body[2] * body[2] * inverse[2]);
-  };
-  for (int k = first; k < last; ++k) {
-    const double n[3] = {c.normal[0][k], c.normal[1][k], c.normal[2][k]};
-    double stiffness = 0, force = 0, work = 0, arm[3] = {0, 0, 0};
-    for (int j = first; j < last; ++j) {
-      const double cosine = n[0] * c.normal[0][j] + n[1] * c.normal[1][j] + n[2] * c.normal[2][j];
-      const double s = j == k ? c.contact_radius[j] : cosine * cosine * c.contact_radius[j];
-      stiffness += s;
-      force += s * c.overlap[j];
-      work += s * c.overlap[j] * c.overlap[j];
-      for (int d = 0; d < 3; ++d)
-        arm[d] += s * c.arm[d][j];
-    }
-    for (double& component : arm)
-      component /= stiffness;
-    const double lever = impact_factor(arm, n);
-    const double common =
-        last - first > 1 ? std::min(1., force / stiffness * std::sqrt(c.contact_radius[k] / work)) : 1;
-    c.share[k] = common * lever;
-  }
 }
 
 void FixWallGranCluster::scatter_clusters(const contact::PlainWall& wall) {
   const contact::ContactBlock& block = *block_;
-  for (int n = 0; n < bodies_in_block_; ++n) {
-    const ClusterInBlock& cluster = clusters_in_block_[n];
+  for (int n = 0; n < groups_; ++n) {
+    const Group& cluster = group_[n];
     const int i = cluster.atom;
     contact::WallHistory::Entries& entries = history_[i];
     double force[3] = {0, 0, 0}, torque[3] = {0, 0, 0}, from[3];
@@ -180,6 +134,13 @@ void FixWallGranCluster::scatter_clusters(const contact::PlainWall& wall) {
         force[d] += block.force[d][m];
         torque[d] += block.torque[d][m];
         entries[m - cluster.first].shear[d] = block.history[d][m];
+      }
+    if (rolls(i))
+      for (int m = cluster.first; m < cluster.last; ++m) {
+        const Eigen::Vector3d spin(wall.omega[0], wall.omega[1], wall.omega[2]);
+        const Eigen::Vector3d rolling = rolling_torque(block, m, i, arguments_.type, spin, entries[m - cluster.first]);
+        for (int d = 0; d < 3; ++d)
+          torque[d] += rolling[d];
       }
     for (int d = 0; d < 3; ++d)
       from[d] = atom->x[i][d] - wall.reference[d];
@@ -193,7 +154,6 @@ void FixWallGranCluster::scatter_clusters(const contact::PlainWall& wall) {
     }
     local_sums_[6] += cluster.last - cluster.first;
   }
-  bodies_in_block_ = 0;
 }
 
 } // namespace eccentra::styles

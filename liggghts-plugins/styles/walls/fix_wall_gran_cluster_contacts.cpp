@@ -4,8 +4,6 @@
 #include "styles/walls/fix_wall_gran_cluster.h"
 
 #include "base/eigen_views.h"
-#include "contact/impact_mass.h"
-#include "contact/shared_contacts.h"
 #include "contact/wall_gaps.h"
 #include "contact/wall_manifold.h"
 #include "styles/bodies/fix_cluster_bodies.h"
@@ -41,8 +39,6 @@ void FixWallGranCluster::collect(int i) {
     return;
   }
   renew_history(i, first);
-  if (arguments_.shared)
-    share_damping(i, first);
 }
 
 void FixWallGranCluster::renew_history(int i, std::size_t first) {
@@ -61,69 +57,6 @@ void FixWallGranCluster::renew_history(int i, std::size_t first) {
     touches_[m].history = &entries[m - first];
 }
 
-// On a plane, or with one contact, all weights of SharedStiffness and ImpactMass are 1: the same formulas, much
-// shorter.
-template <class Stiffness>
-bool FixWallGranCluster::share_damping_of_one_normal(int i, std::size_t first, const Stiffness& stiffness) {
-  const Eigen::Vector3d n = touches_[first].normal;
-  for (std::size_t m = first + 1; m < touches_.size(); ++m)
-    if (touches_[m].normal != n)
-      return false;
-  double sum = 0, force = 0, work = 0;
-  Eigen::Vector3d arm = Eigen::Vector3d::Zero();
-  for (std::size_t m = first; m < touches_.size(); ++m) {
-    const contact::WallTouch& touch = touches_[m];
-    const double s = stiffness(touch);
-    sum += s;
-    force += s * touch.overlap;
-    work += s * touch.overlap * touch.overlap;
-    arm += s * touch.lever;
-  }
-  double lever = 1;
-  if (!is_plain_sphere(i)) {
-    const Eigen::Vector3d turn = base::row_major(bodies_->rotation(i)).transpose() * (arm / sum).cross(n);
-    const Eigen::Vector3d& inertia = bodies_->shapes()[bodies_->shape_id(i)].inertia_per_mass();
-    lever = 1 / std::sqrt(1 + turn.cwiseAbs2().dot(inertia.cwiseInverse()));
-  }
-  const double common = touches_.size() > first + 1 ? force / sum / std::sqrt(work) : 0;
-  for (std::size_t m = first; m < touches_.size(); ++m)
-    touches_[m].share = (common > 0 ? std::min(1., common * std::sqrt(stiffness(touches_[m]))) : 1) * lever;
-  return true;
-}
-
-void FixWallGranCluster::share_damping(int i, std::size_t first) {
-  if (touches_.size() == first)
-    return;
-  const bool plain = is_plain_sphere(i);
-  if (plain && touches_.size() == first + 1)
-    return;
-  // Within one fix the particle's material is one; walls of several materials weigh by their modulus.
-  const auto stiffness = [&](const contact::WallTouch& touch) {
-    return youngs_[atom->type[i]][touch.wall_type] * std::max(0., touch.contact_radius());
-  };
-  if (share_damping_of_one_normal(i, first, stiffness))
-    return;
-  contact::SharedStiffness all;
-  contact::ImpactMass impact;
-  for (std::size_t m = first; m < touches_.size(); ++m) {
-    const Eigen::Vector3d& n = touches_[m].normal;
-    all.add(stiffness(touches_[m]), touches_[m].overlap, n.x(), n.y(), n.z());
-    impact.add(stiffness(touches_[m]), n, touches_[m].lever);
-  }
-  Eigen::Matrix3d inverse_inertia = Eigen::Matrix3d::Zero(); // per unit mass; spheres are always hit in the centre
-  if (!plain) {
-    const Eigen::Matrix3d rotation = base::row_major(bodies_->rotation(i));
-    inverse_inertia = rotation *
-                      bodies_->shapes()[bodies_->shape_id(i)].inertia_per_mass().cwiseInverse().asDiagonal() *
-                      rotation.transpose();
-  }
-  for (std::size_t m = first; m < touches_.size(); ++m) {
-    const Eigen::Vector3d& n = touches_[m].normal;
-    touches_[m].share =
-        all.damping_share(stiffness(touches_[m]), n.x(), n.y(), n.z()) * std::sqrt(impact.ratio(n, inverse_inertia));
-  }
-}
-
 void FixWallGranCluster::collect_primitive(int i) {
   const contact::WallSurface& surface = *arguments_.surface;
   const Eigen::Vector3d x = base::vector3(atom->x[i]);
@@ -132,15 +65,15 @@ void FixWallGranCluster::collect_primitive(int i) {
     const Eigen::Vector3d to_wall = arm - point.distance * point.normal;
     touches_.push_back({i, nullptr, contact::WallContactKey(sub, 0, 0), point.normal,
                         arm - (radius - 0.5 * overlap) * point.normal, to_wall, surface.velocity_at(x + to_wall),
-                        surface.angular_velocity(), overlap, radius, 1.0, arguments_.type, -1});
+                        surface.angular_velocity(), overlap, radius, arguments_.type, -1});
   };
   if (is_plain_sphere(i)) {
     const contact::WallPoint point = surface.nearest(x);
-    if (point.distance < atom->radius[i])
+    if (point.distance < reach_ * atom->radius[i])
       touch(0, Eigen::Vector3d::Zero(), atom->radius[i], point);
     return;
   }
-  if (surface.distance(x) >= atom->radius[i]) // of the bounding sphere
+  if (surface.distance(x) >= reach_ * atom->radius[i]) // of the bounding sphere
     return;
   const contact::SurfaceSpheres& spheres = bodies_->shapes().surface(bodies_->shape_id(i));
   const Eigen::Matrix3d rotation = base::row_major(bodies_->rotation(i));
@@ -151,7 +84,7 @@ void FixWallGranCluster::collect_primitive(int i) {
   gaps_.resize(spheres.count);
   contact::wall_gaps(surface, x, rotation, spheres, gaps_.data());
   for (int k = 0; k < spheres.count; ++k)
-    if (gaps_[k] < 0.0) {
+    if (gaps_[k] < (reach_ - 1) * spheres.r[k]) {
       const Eigen::Vector3d arm = rotation * Eigen::Vector3d(spheres.x[k], spheres.y[k], spheres.z[k]);
       touch(k, arm, spheres.r[k], surface.nearest(x + arm));
     }
@@ -174,7 +107,7 @@ void FixWallGranCluster::collect_hull(int i, const contact::SurfaceSpheres& sphe
   for (const contact::Contact& c : hull_contacts_) {
     const Eigen::Vector3d to_wall = c.arm - c.distance * c.normal;
     touches_.push_back({i, nullptr, contact::WallContactKey(c.id, 0, 0), c.normal, c.contact_point(), to_wall,
-                        surface.velocity_at(x + to_wall), surface.angular_velocity(), c.overlap(), c.radius_a, 1.0,
+                        surface.velocity_at(x + to_wall), surface.angular_velocity(), c.overlap(), c.radius_a,
                         arguments_.type, -1, c.weight, spheres.core.contact_radius});
   }
 }
@@ -216,7 +149,7 @@ contact::WallHistoryEntry FixWallGranCluster::old_entry(int i, const contact::Wa
     for (const contact::WallHistoryEntry& old : entries)
       if (old.key.sub() == touch.key.sub() && old.key.mesh() == touch.key.mesh() &&
           meshes_->coplanar(touch.key.mesh(), old.key.triangle(), touch.key.triangle()))
-        return {touch.key, old.shear, old.rolling};
+        return {touch.key, old.shear, old.rolling, old.more};
   return {touch.key, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
 }
 

@@ -16,11 +16,12 @@ void FixWallGranCluster::sphere_forces() {
   const contact::PlainWall wall(*arguments_.surface);
   const std::size_t all = near_spheres_.size();
   std::size_t next = 0;
+  begin_groups(); // a sphere has one contact here, which shares with none
   while (next < all) {
     int n = 0;
     while (next < all && n < kBatch)
       n = add_sphere(wall, near_spheres_[next++], n);
-    evaluate(n, !update->setupflag);
+    evaluate(*block_, n, !update->setupflag);
     scatter_spheres(wall, n);
   }
 }
@@ -57,12 +58,9 @@ int FixWallGranCluster::add_sphere(const contact::PlainWall& wall, int i, int m)
   block.radius_a[m] = radius;
   block.overlap[m] = overlap;
   block.contact_radius[m] = std::sqrt(radius * overlap);
+  contact::set_curvature(wall, normal, from, distance, block, m);
   block.mass[m] = atom->rmass[i];
-  block.youngs[m] = youngs_[type][wall_type];
-  block.shear_modulus[m] = shear_[type][wall_type];
-  block.damping[m] = -damping_[type][wall_type];
-  block.friction[m] = friction_[type][wall_type];
-  block.share[m] = 1;
+  materials_.fill(block, m, m + 1, type, wall_type);
   in_block_[m] = i;
   return m + 1;
 }
@@ -83,7 +81,7 @@ void FixWallGranCluster::scatter_spheres(const contact::PlainWall& wall, int n) 
     }
     if (arguments_.rolling) {
       const Eigen::Vector3d spin(wall.omega[0], wall.omega[1], wall.omega[2]);
-      const Eigen::Vector3d rolling = rolling_torque(m, i, arguments_.type, spin, entry);
+      const Eigen::Vector3d rolling = rolling_torque(block, m, i, arguments_.type, spin, entry);
       for (int k = 0; k < 3; ++k)
         torque[k] += rolling[k];
     }

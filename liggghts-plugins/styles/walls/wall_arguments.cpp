@@ -156,19 +156,72 @@ std::unique_ptr<WallRolling> read_rolling(Reader& reader, const std::vector<std:
   return model;
 }
 
+/// A name of one of stock's kinds of models.
+std::string read_model(Reader& reader, const std::string& kind) {
+  const std::string name = reader.next("a name after " + kind);
+  if (!StockContact::knows(kind, name) && !(kind == "model" && contact::find_contact_model(name)))
+    throw std::invalid_argument(kind + " '" + name + "' is not offered; expected one of " + StockContact::known(kind));
+  return name;
+}
+
+/// What was not typed, and what fits together.
+void complete(WallArguments& arguments, bool friction_bound, bool tangential_update) {
+  const bool paper = arguments.damping == contact::DampingLaw::paper;
+  arguments.tangential = arguments.names.tangential != "off";
+  if (!arguments.tangential)
+    arguments.tangential_damping = false;
+  arguments.in_blocks = contact::find_contact_model(arguments.names.normal) &&
+                        (arguments.names.tangential == "off" || arguments.names.tangential == "history") &&
+                        arguments.names.cohesion == "off" && arguments.options.empty();
+  if (paper && !arguments.in_blocks)
+    throw std::invalid_argument(
+        "damping 'paper' is not offered for the models of LIGGGHTS; expected it with model hertz, "
+        "tangential history or off, and no cohesion");
+  if (paper && friction_bound)
+    throw std::invalid_argument("friction_bound: damping paper has a bound of its own, the elastic one for the spring "
+                                "alone; expected damping stock, or no friction_bound");
+  // `contacts parallel` is what stock does.
+  if (paper)
+    arguments.friction = contact::FrictionBound::paper;
+  else if (!friction_bound)
+    arguments.friction = arguments.shared ? contact::FrictionBound::elastic : contact::FrictionBound::stock;
+  if (!tangential_update)
+    arguments.synchronised = arguments.shared;
+  if (!arguments.in_blocks && arguments.tangential && !arguments.tangential_damping) {
+    arguments.options.push_back("tangential_damping");
+    arguments.options.push_back("off");
+  }
+}
+
 } // namespace
 
 WallArguments read_wall_arguments(const std::vector<std::string>& all) {
   WallArguments arguments;
   Reader reader(all);
+  bool friction_bound = false, tangential_update = false;
   reader.expect("model");
-  reader.expect("hertz");
+  arguments.names.normal = read_model(reader, "model");
   while (!reader.done()) {
     const std::string& word = reader.next("");
     if (word == "tangential") {
-      arguments.tangential = reader.choose(word, "history", "off");
+      arguments.names.tangential = read_model(reader, word);
     } else if (word == "cohesion") {
-      reader.expect_only(word, "off", "clusters and spheres do not cohere with these walls");
+      arguments.names.cohesion = read_model(reader, word);
+    } else if (word == "friction_bound") {
+      friction_bound = true;
+      arguments.friction =
+          reader.choose(word, "elastic", "stock") ? contact::FrictionBound::elastic : contact::FrictionBound::stock;
+    } else if (word == "tangential_update") {
+      tangential_update = true;
+      arguments.synchronised = reader.choose(word, "synchronised", "stock");
+    } else if (word == "rolling_radius") {
+      arguments.rolling_radius =
+          reader.choose(word, "body", "sub_sphere") ? RollingRadius::body : RollingRadius::sub_sphere;
+    } else if (contact::is_switch_of_a_model(word)) {
+      if (reader.choose(word, "on", "off")) {
+        arguments.options.push_back(word);
+        arguments.options.push_back("on");
+      }
     } else if (word == "surface") {
       reader.expect_only(word, "default", "bodies are what their spheres are");
     } else if (word == "shear") {
@@ -200,12 +253,12 @@ WallArguments read_wall_arguments(const std::vector<std::string>& all) {
       if (reader.at == here)
         throw std::invalid_argument(
             "unknown word '" + word +
-            "': tangential, rolling_friction, contacts, damping, tangential_damping, primitive (with rotate "
+            "': tangential, cohesion, rolling_friction, rolling_radius, contacts, damping, tangential_damping, "
+            "friction_bound, tangential_update, primitive (with rotate "
             "and velocity, which stock calls shear) and mesh are there");
     }
   }
-  if (!arguments.tangential)
-    arguments.tangential_damping = false;
+  complete(arguments, friction_bound, tangential_update);
   if (!arguments.surface && arguments.meshes.empty())
     throw std::invalid_argument("no wall is given: add 'primitive type T zplane Z' or 'mesh n_meshes 1 meshes ID'");
   return arguments;

@@ -3,8 +3,9 @@
 // What a user types after `fix ID group wall/gran/cluster`, as data.
 #pragma once
 
-#include "contact/contact_law.h"
+#include "contact/contact_models.h"
 #include "contact/wall_surface.h"
+#include "styles/models/stock_contact.h"
 #include "styles/rolling/wall_rolling.h"
 
 #include <memory>
@@ -15,10 +16,19 @@
 namespace eccentra::styles {
 
 struct WallArguments {
+  StockModelNames names;            ///< `normal` is a row of contact_models() where in_blocks; rolling is `rolling`
+  bool in_blocks = true;            ///< else through LIGGGHTS's own classes
+  std::vector<std::string> options; ///< keywords and values for those
+  contact::FrictionBound friction = contact::FrictionBound::elastic;
+  bool synchronised = true; ///< the tangential spring advances by what contact points slide in the middle of a step
+  RollingRadius rolling_radius = RollingRadius::sub_sphere;
   bool shared = true; ///< contacts shared (else parallel)
   contact::DampingLaw damping = contact::DampingLaw::stock;
   bool tangential_damping = true;
-  bool tangential = false;                     ///< a tangential spring; without it the wall is free of friction
+  bool tangential = false; ///< a tangential spring; without it the wall is free of friction
+
+  contact::DampingChoice damping_choice() const { return {damping, tangential_damping}; }
+
   std::unique_ptr<WallRolling> rolling;        ///< null: rolling_friction off
   std::string rolling_model;                   ///< as typed
   std::optional<contact::WallSurface> surface; ///< primitive wall

@@ -183,7 +183,6 @@ contact::WallTouch WallMeshes::at_triangle(int mesh, int triangle, int atom, int
   touch.atom = atom;
   touch.history = nullptr;
   touch.key = contact::WallContactKey(sub, mesh, meshes_[mesh]->id(triangle));
-  touch.share = 1.0;
   touch.wall_type = fixes_[mesh]->atomTypeWall();
   touch.triangle = triangle;
   motion(mesh, triangle, bary, touch.wall_velocity, touch.wall_omega);

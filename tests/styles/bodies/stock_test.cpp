@@ -77,7 +77,7 @@ TEST(AgainstStock, PlainSpheresAreTheSame) {
   const State stock = stock_spheres();
   LiggghtsSession session;
   open_box(session, {});
-  use_clusters(session);
+  use_clusters(session, "contacts parallel");
   add_spheres(session, false);
   session.script(run_spheres);
   expect_same(state_of(session), stock, grown_round_off);
@@ -87,7 +87,7 @@ TEST(AgainstStock, OneSphereClustersAreTheSame) {
   const State stock = stock_spheres();
   LiggghtsSession session;
   open_box(session, {});
-  use_clusters(session);
+  use_clusters(session, "contacts parallel");
   add_spheres(session, true);
   session.script(run_spheres);
   expect_same(state_of(session), stock, grown_round_off);
@@ -113,10 +113,18 @@ Eigen::Matrix3d frame(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const 
   return f;
 }
 
-Impact stock_impact(const std::string& family, const std::string& count, double offset, Start starts[2]) {
+/// What the models below read beside the materials of open_box.
+constexpr const char* more_materials =
+    "fix p1 all property/global coefficientRollingFriction peratomtypepair 1 0.1\n"
+    "fix p2 all property/global coefficientRollingViscousDamping peratomtypepair 1 0.3\n"
+    "fix p3 all property/global characteristicVelocity scalar 0.5\n"
+    "fix p4 all property/global cohesionEnergyDensity peratomtypepair 1 2e3\n";
+
+Impact stock_impact(const std::string& family, const std::string& count, double offset, Start starts[2],
+                    const std::string& models) {
   LiggghtsSession session;
   open_box(session, {});
-  session.script("pair_style gran model hertz tangential history\npair_coeff * *\n");
+  session.script(more_materials + ("pair_style gran " + models + "\npair_coeff * *\n"));
   session.script(impact_timestep);
   session.script("fix pts all particletemplate/multisphere/shape 15485863 atom_type 1 density constant 2619 shape " +
                  family + " " + count +
@@ -170,13 +178,15 @@ Impact stock_impact(const std::string& family, const std::string& count, double 
   return result;
 }
 
-void expect_same_impact(const std::string& family, const std::string& count, double offset) {
-  SCOPED_TRACE(family + " " + count + " offset " + std::to_string(offset));
+void expect_same_impact(const std::string& family, const std::string& count, double offset,
+                        const std::string& models = "model hertz tangential history") {
+  SCOPED_TRACE(family + " " + count + " offset " + std::to_string(offset) + " " + models);
   Start starts[2];
-  const Impact stock = stock_impact(family, count, offset, starts);
+  const Impact stock = stock_impact(family, count, offset, starts, models);
   LiggghtsSession session;
   open_box(session, {});
-  use_clusters(session, "contacts parallel");
+  session.script(more_materials + ("pair_style gran/cluster " + models +
+                                   " contacts parallel\npair_coeff * *\nfix integrate all nve/cluster\n"));
   session.script(impact_timestep);
   for (const Start& start : starts)
     add_body(session, shape_of(family, count), start);
@@ -200,4 +210,12 @@ TEST(AgainstStock, TwoBodyImpactsOfClustersAreTheSame) {
   expect_same_impact("cube", "27", 0.002);
   expect_same_impact("disk", "7", 0.001);
   expect_same_impact("cube", "64", 0.001);
+}
+
+TEST(AgainstStock, TwoBodyImpactsUnderOtherModelsAreTheSame) {
+  for (const char* models :
+       {"model hooke tangential history", "model hertz tangential no_history", "model hertz",
+        "model hertz tangential history rolling_friction cdt", "model hertz tangential history rolling_friction epsd2",
+        "model hooke tangential history rolling_friction epsd", "model hertz tangential history cohesion sjkr"})
+    expect_same_impact("cube", "8", 0.001, models);
 }

@@ -266,6 +266,19 @@ TEST(ChungOoi, Test8SpinningSphereMeetsASmallOne) {
   }
 }
 
+TEST(ChungOoi, SlidingImpactsObeyCoulombAtAnyRestitution) {
+  // The bound on the elastic force, for spring and damper together: over an impact the dampers' part of F_n sums up to
+  // 0, so that the impulse of friction is mu (1 + e) m v_n.
+  for (const double e : {0.3, 0.5, 0.9}) {
+    Stuff s = alloy;
+    s.restitution = e;
+    const Motion m = rebound(s, big_radius, {0, 0, -normal_speed}, {0, 12, 0});
+    const double coulomb = s.friction * (1 + e) * normal_speed;
+    EXPECT_NEAR(m.velocity.z(), e * normal_speed, 1e-3 * normal_speed) << e;
+    EXPECT_NEAR(m.velocity.x(), coulomb, 5e-3 * coulomb) << "e " << e;
+  }
+}
+
 TEST(ChungOoi, StocksCapOnTheWholeNormalForceCountsThePullOfItsDamper) {
   // The normal motion d'' = -d^1.5 - gamma d^0.25 d' of a contact with kn = m = v_n = 1, by the midpoint rule.
   for (const double e : {0.5, 0.9}) {
@@ -287,9 +300,10 @@ TEST(ChungOoi, StocksCapOnTheWholeNormalForceCountsThePullOfItsDamper) {
     EXPECT_NEAR(-v, e, 1e-3);
     Stuff s = alloy;
     s.restitution = e;
-    const Motion m = rebound(s, big_radius, {0, 0, -normal_speed}, {0, 12, 0}, "tangential_damping off");
+    const Motion m =
+        rebound(s, big_radius, {0, 0, -normal_speed}, {0, 12, 0}, "friction_bound stock tangential_damping off");
     EXPECT_NEAR(m.velocity.x(), s.friction * absolute * normal_speed, 5e-3 * m.velocity.x()) << "e " << e;
-    const Motion damped = rebound(s, big_radius, {0, 0, -normal_speed}, {0, 12, 0});
+    const Motion damped = rebound(s, big_radius, {0, 0, -normal_speed}, {0, 12, 0}, "friction_bound stock");
     const double coulomb = s.friction * (1 + e) * normal_speed;
     std::printf("e %.1f: impulse of friction over mu (1 + e) m v_n: %.3f, with stock's tangential damping %.3f\n", e,
                 m.velocity.x() / coulomb, damped.velocity.x() / coulomb);

@@ -184,7 +184,7 @@ TEST_P(ModelsAtOurWalls, EqualStockWallsOnAPlane) {
     scene.pair_arguments = GetParam().arguments;
     WallModel model = GetParam();
     model.style = style;
-    model.arguments = "";
+    model.arguments = std::string(style) == "wall/gran" ? "" : "contacts parallel";
     LiggghtsSession session;
     const double weight = sphere_mass() * kGravity;
     std::string script = rolling_scene(scene);

@@ -44,7 +44,7 @@ TEST(WallArguments, GoodLinesAreRead) {
 }
 
 TEST(WallArguments, BadLinesAreNamed) {
-  expect_names("model hooke tangential history primitive type 1 xplane 0", "'hooke'");
+  expect_names("model hookes tangential history primitive type 1 xplane 0", "'hookes'");
   expect_names(kModel, "no wall is given");
   expect_names(kModel + "primitive type 1 zcylinder 0.02 0", "the line ends");
   expect_names(kModel + "primitive type 1 zcylinder -0.02 0 0", "radius must be > 0");

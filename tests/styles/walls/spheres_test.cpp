@@ -63,7 +63,7 @@ double spin_beside_cylinder(const std::string& style, const std::string& turning
 
 TEST(WallSpheres, PlaneTrajectoryIsStocks) {
   for (const std::string rolling : {"", "rolling_friction cdt"}) {
-    const auto ours = thrown_into_corner("wall/gran/cluster", rolling);
+    const auto ours = thrown_into_corner("wall/gran/cluster", rolling + " contacts parallel");
     const auto stock = thrown_into_corner("wall/gran", rolling);
     for (int k = 0; k < 9; ++k) {
       // Round-off of 1e-16 per step, amplified by each of the impacts: far below what any other law would give.
@@ -181,14 +181,14 @@ TEST(WallSpheres, SlidingAcrossRanksIsStocks) {
       velocity all set 0.4 0.05 0
       fix gravity all gravity 9.81 vector 0 0 -1
       fix floor all )" +
-                   style + R"( model hertz tangential history primitive type 1 zplane -0.095
+                   style + R"( primitive type 1 zplane -0.095
       fix integrate all nve/sphere
       run 3000
     )");
     return state_of(session, 1);
   };
-  const auto ours = slide("wall/gran/cluster");
-  const auto stock = slide("wall/gran");
+  const auto ours = slide("wall/gran/cluster model hertz tangential history contacts parallel");
+  const auto stock = slide("wall/gran model hertz tangential history");
   EXPECT_GT(ours[0], 0.002); // it has crossed the border between the ranks
   for (int k = 0; k < 9; ++k)
     EXPECT_NEAR(ours[k], stock[k], 1e-11 * (k < 6 ? 1 : 100));
@@ -256,7 +256,8 @@ TEST(WallSpheres, RollingFrictionShapeIsThatOfStockWalls) {
       )");
       const std::string wall = " primitive type 1 zplane -0.095";
       session.script("fix floor all " + style + " model hertz tangential history rolling_friction shape" +
-                     (words_last ? wall + arguments : arguments + wall) + "\nfix integrate all nve/sphere\nrun 10000");
+                     (words_last ? wall + arguments : arguments + " contacts parallel" + wall) +
+                     "\nfix integrate all nve/sphere\nrun 10000");
       return state_of(session, 1);
     };
     const auto ours = rolling("wall/gran/cluster", false);

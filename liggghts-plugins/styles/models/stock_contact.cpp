@@ -1,0 +1,397 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Makes LIGGGHTS's models by name and hands them one sub-contact after the other.
+#include "styles/models/stock_contact.h"
+
+#include <mpi.h>
+
+#include "atom.h"
+#include "contact_models.h"
+#include "fix_property_atom.h"
+#include "force.h"
+#include "global_properties.h"
+#include "lammps.h"
+#include "memory.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "settings.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <stdexcept>
+
+namespace eccentra::styles {
+
+namespace {
+
+namespace stock = LIGGGHTS::ContactModels;
+using LAMMPS_NS::LAMMPS;
+
+/// Counts the values of history that the models ask for.
+class History : public LIGGGHTS::IContactHistorySetup {
+ public:
+  int add_history_value(std::string name, std::string) override {
+    if (name == "shearx")
+      shear = size;
+    return size++;
+  }
+  int size = 0, shear = -1;
+};
+
+/// Stands in for the contact model around the models.
+class Surroundings : public stock::ContactModelBase {
+ public:
+  Surroundings(LAMMPS* lmp, bool wall) : ContactModelBase(lmp, wall) {}
+  void tally_pp(double, int, int, int) override {}
+  void tally_pw(double, int, int, int) override {}
+};
+
+template <class Base>
+using Creators = std::map<std::string, std::function<std::unique_ptr<Base>(LAMMPS*, History*, Surroundings*)>>;
+
+template <class Base, class Model> std::unique_ptr<Base> make(LAMMPS* lmp, History* history, Surroundings* around) {
+  return std::make_unique<Model>(lmp, history, around);
+}
+
+// LIGGGHTS lists its models by macros in their headers.
+const Creators<stock::NormalModelBase>& normal_models() {
+  static const Creators<stock::NormalModelBase> all = {
+      {"off", make<stock::NormalModelBase, stock::NormalModel<stock::NORMAL_OFF>>},
+#define NORMAL_MODEL(identifier, name, constant)                                                                       \
+  {#name, make<stock::NormalModelBase, stock::NormalModel<stock::identifier>>},
+#include "style_normal_model.h"
+#undef NORMAL_MODEL
+  };
+  return all;
+}
+
+const Creators<stock::TangentialModelBase>& tangential_models() {
+  static const Creators<stock::TangentialModelBase> all = {
+      {"off", make<stock::TangentialModelBase, stock::TangentialModel<stock::TANGENTIAL_OFF>>},
+#define TANGENTIAL_MODEL(identifier, name, constant)                                                                   \
+  {#name, make<stock::TangentialModelBase, stock::TangentialModel<stock::identifier>>},
+#include "style_tangential_model.h"
+#undef TANGENTIAL_MODEL
+  };
+  return all;
+}
+
+const Creators<stock::CohesionModelBase>& cohesion_models() {
+  static const Creators<stock::CohesionModelBase> all = {
+      {"off", make<stock::CohesionModelBase, stock::CohesionModel<stock::COHESION_OFF>>},
+#define COHESION_MODEL(identifier, name, constant)                                                                     \
+  {#name, make<stock::CohesionModelBase, stock::CohesionModel<stock::identifier>>},
+#include "style_cohesion_model.h"
+#undef COHESION_MODEL
+  };
+  return all;
+}
+
+const Creators<stock::RollingModelBase>& rolling_models() {
+  static const Creators<stock::RollingModelBase> all = {
+      {"off", make<stock::RollingModelBase, stock::RollingModel<stock::ROLLING_OFF>>},
+#define ROLLING_MODEL(identifier, name, constant)                                                                      \
+  {#name, make<stock::RollingModelBase, stock::RollingModel<stock::identifier>>},
+#include "style_rolling_model.h"
+#undef ROLLING_MODEL
+  };
+  return all;
+}
+
+template <class Visit> auto with_kind(const std::string& kind, Visit visit) {
+  if (kind == "model")
+    return visit(normal_models());
+  if (kind == "tangential")
+    return visit(tangential_models());
+  if (kind == "cohesion")
+    return visit(cohesion_models());
+  return visit(rolling_models());
+}
+
+template <class Map>
+auto created(const Map& models, const char* kind, const std::string& name, LAMMPS* lmp, History* history,
+             Surroundings* around) {
+  const auto found = models.find(name);
+  if (found == models.end())
+    throw std::invalid_argument(std::string(kind) + " '" + name + "' is unknown; expected one of " +
+                                StockContact::known(kind));
+  return found->second(lmp, history, around);
+}
+
+} // namespace
+
+struct StockContact::Models {
+  Models(LAMMPS* lmp, bool wall) : around(lmp, wall) {}
+
+  History history;
+  Surroundings around;
+  std::unique_ptr<stock::SurfaceModelBase> surface;
+  std::unique_ptr<stock::NormalModelBase> normal;
+  std::unique_ptr<stock::CohesionModelBase> cohesion;
+  std::unique_ptr<stock::TangentialModelBase> tangential;
+  std::unique_ptr<stock::RollingModelBase> rolling;
+  stock::SurfacesIntersectData data{};
+  stock::ForceData on_a, on_b;
+  std::vector<double> scratch;
+  int flags = 0;
+  LAMMPS_NS::FixPropertyAtom* liquid_flux = nullptr; ///< of a model of liquid bridges
+
+  /// Calls visit for each model in LIGGGHTS's own order.
+  template <class Visit> void each(Visit visit) {
+    visit(*surface);
+    visit(*normal);
+    visit(*cohesion);
+    visit(*tangential);
+    visit(*rolling);
+  }
+};
+
+StockContact::StockContact(LAMMPS* lmp, bool wall) : lmp_(lmp), wall_(wall) {}
+StockContact::~StockContact() = default;
+
+bool StockContact::knows(const std::string& kind, const std::string& name) {
+  return with_kind(kind, [&](const auto& models) { return models.count(name) > 0; });
+}
+
+std::string StockContact::known(const std::string& kind) {
+  return with_kind(kind, [](const auto& models) {
+    std::string text;
+    for (const auto& entry : models)
+      text += (text.empty() ? "" : ", ") + entry.first;
+    return text;
+  });
+}
+
+void StockContact::choose(const StockModelNames& names, const std::vector<std::string>& options) {
+  models_ = std::make_unique<Models>(lmp_, wall_);
+  names_ = names;
+  Models& m = *models_;
+  m.surface = std::make_unique<stock::SurfaceModel<stock::SURFACE_DEFAULT>>(lmp_, &m.history, &m.around);
+  m.normal = created(normal_models(), "model", names.normal, lmp_, &m.history, &m.around);
+  // What luding's models read beside a normal model without adhesion: 0.
+  if (m.around.get_history_offset("kc_offset") < 0 && (names.tangential == "tan_luding" || names.rolling == "luding")) {
+    m.around.add_history_offset("kc_offset", m.history.add_history_value("kc", "1"));
+    m.around.add_history_offset("fo_offset", m.history.add_history_value("fo", "1"));
+  }
+  m.cohesion = created(cohesion_models(), "cohesion", names.cohesion, lmp_, &m.history, &m.around);
+  m.tangential = created(tangential_models(), "tangential", names.tangential, lmp_, &m.history, &m.around);
+  m.rolling = created(rolling_models(), "rolling_friction", names.rolling, lmp_, &m.history, &m.around);
+  Settings settings(lmp_);
+  m.each([&](auto& model) { model.registerSettings(settings); });
+  std::vector<std::string> words = options;
+  std::vector<char*> arg;
+  for (std::string& word : words)
+    arg.push_back(word.data());
+  if (!settings.parseArguments(static_cast<int>(arg.size()), arg.data()))
+    throw std::invalid_argument(settings.error_message);
+  m.each([&](auto& model) { model.postSettings(&m.history, &m.around); });
+  m.scratch.resize(m.history.size + 1);
+  shear_ = m.history.shear;
+}
+
+int StockContact::history_size() const {
+  return models_->history.size;
+}
+
+void StockContact::connect() {
+  Models& m = *models_;
+  // What a model reaches beyond touch it tells the neighbour list alone.
+  const double before = lmp_->neighbor->contactDistanceFactor;
+  lmp_->neighbor->contactDistanceFactor = 1;
+  m.each([&](auto& model) { model.connectToProperties(lmp_->force->registry); });
+  reach_ = names_.cohesion == "off" ? 1 : lmp_->neighbor->contactDistanceFactor;
+  lmp_->neighbor->contactDistanceFactor = std::max(before, lmp_->neighbor->contactDistanceFactor);
+  if (names_.tangential != "off") {
+    PropertyRegistry& registry = lmp_->force->registry;
+    registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
+    registry.connect("coeffFrict", friction_, "gran/cluster");
+  }
+  if (reach_ > 1)
+    m.liquid_flux = static_cast<LAMMPS_NS::FixPropertyAtom*>(
+        lmp_->modify->find_fix_property("liquidFlux", "property/atom", "scalar", 0, 0, "gran/cluster", false));
+}
+
+double StockContact::exponent() const {
+  return models_->normal->stressStrainExponent();
+}
+
+namespace {
+
+/// What stock's loop over pairs (pair_gran_base.h) and walls (fix_wall_gran_base.h) hands over.
+void fill(stock::SurfacesIntersectData& data, StockSubContact& c, bool wall) {
+  data.is_wall = wall;
+  data.i = c.a;
+  data.j = c.b;
+  data.itype = c.type_a;
+  data.jtype = c.type_b;
+  data.radi = c.radius_a;
+  data.radj = c.radius_b;
+  data.radsum = c.radius_a + c.radius_b;
+  std::copy_n(c.separation, 3, data.delta);
+  data.rsq = c.separation[0] * c.separation[0] + c.separation[1] * c.separation[1] + c.separation[2] * c.separation[2];
+  data.v_i = c.velocity_a;
+  data.v_j = c.velocity_b;
+  data.omega_i = c.omega_a;
+  data.omega_j = c.omega_b;
+  data.mi = c.mass_a;
+  data.mj = c.mass_b;
+  data.meff = c.mass;
+  data.area_ratio = 1;
+  data.computeflag = 1;
+  data.shearupdate = c.advance;
+  data.r = std::sqrt(data.rsq);
+  data.rinv = 1 / data.r;
+  for (int k = 0; k < 3; ++k)
+    data.en[k] = data.delta[k] * data.rinv;
+  data.deltan = data.radsum - data.r;
+}
+
+} // namespace
+
+void StockContact::stiffness(StockSubContact& c) {
+  Models& m = *models_;
+  fill(m.data, c, wall_);
+  std::copy_n(c.history, m.history.size, m.scratch.data());
+  m.data.contact_history = m.scratch.data();
+  m.data.contact_flags = &m.flags;
+  m.data.shearupdate = 0;
+  m.on_a.reset();
+  m.on_b.reset();
+  m.data.kn = m.data.kt = m.data.gamman = m.data.gammat = 0;
+  m.surface->surfacesIntersect(m.data, m.on_a, m.on_b);
+  m.normal->surfacesIntersect(m.data, m.on_a, m.on_b);
+  c.kn = m.data.kn;
+  c.kt = m.data.kt;
+  c.gamma_n = m.data.gamman;
+  c.gamma_t = m.data.gammat;
+}
+
+/// Slip of the contact point in the middle of the step instead of what the velocities, which belong there, give at its
+/// end (contact_forces has the same).
+void StockContact::synchronise(const StockSubContact& c) {
+  stock::SurfacesIntersectData& data = models_->data;
+  using Eigen::Vector3d;
+  const Eigen::Map<const Vector3d> va(c.velocity_a), vb(c.velocity_b), wa(c.omega_a), wb(c.omega_b), arm_a(c.arm_a),
+      arm_b(c.arm_b), n(data.en);
+  const double half = 0.5 * c.step;
+  const Vector3d approach = va - vb;
+  const Vector3d normal = wall_ ? Vector3d(n) : Vector3d(n - half * data.rinv * (approach - approach.dot(n) * n));
+  Vector3d slip = va - half * wa.cross(wa.cross(arm_a)) - vb - data.cri * wa.cross(normal);
+  if (!wall_)
+    slip += half * wb.cross(wb.cross(arm_b)) - data.crj * wb.cross(normal);
+  slip -= slip.dot(normal) * normal;
+  data.vtr1 = slip[0];
+  data.vtr2 = slip[1];
+  data.vtr3 = slip[2];
+}
+
+/// Stock's tangential model under the bound that was chosen.
+void StockContact::tangential(const StockSubContact& c) {
+  Models& m = *models_;
+  stock::SurfacesIntersectData& data = m.data;
+  if (bound_ != contact::FrictionBound::elastic || !friction_) {
+    m.tangential->surfacesIntersect(data, m.on_a, m.on_b);
+    return;
+  }
+  const double whole = data.Fn;
+  const stock::ForceData before_a = m.on_a, before_b = m.on_b;
+  data.Fn = whole + data.gamman * data.vn; // without the damper
+  m.tangential->surfacesIntersect(data, m.on_a, m.on_b);
+  const double cap = friction_[c.type_a][c.type_b] * std::fabs(data.Fn);
+  double square = 0;
+  for (int k = 0; k < 3; ++k)
+    square += (m.on_a.delta_F[k] - before_a.delta_F[k]) * (m.on_a.delta_F[k] - before_a.delta_F[k]);
+  if (square > cap * cap) {
+    const double cut = cap / std::sqrt(square);
+    for (int k = 0; k < 3; ++k) {
+      m.on_a.delta_F[k] = before_a.delta_F[k] + cut * (m.on_a.delta_F[k] - before_a.delta_F[k]);
+      m.on_b.delta_F[k] = before_b.delta_F[k] + cut * (m.on_b.delta_F[k] - before_b.delta_F[k]);
+      m.on_a.delta_torque[k] = before_a.delta_torque[k] + cut * (m.on_a.delta_torque[k] - before_a.delta_torque[k]);
+      m.on_b.delta_torque[k] = before_b.delta_torque[k] + cut * (m.on_b.delta_torque[k] - before_b.delta_torque[k]);
+    }
+  }
+  data.Fn = whole;
+}
+
+/// Sub-spheres that do not touch. Liquid that a bridge moves is counted per volume of a sub-sphere, of which a body has
+/// more than one.
+void StockContact::close(const StockSubContact& c) {
+  Models& m = *models_;
+  double *flux_a = nullptr, *flux_b = nullptr, before_a = 0, before_b = 0;
+  if (m.liquid_flux && c.volume_a > 0)
+    before_a = *(flux_a = m.liquid_flux->vector_atom + c.a);
+  if (m.liquid_flux && c.volume_b > 0 && c.b >= 0)
+    before_b = *(flux_b = m.liquid_flux->vector_atom + c.b);
+  m.each([&](auto& model) { model.surfacesClose(m.data, m.on_a, m.on_b); });
+  constexpr double ball = 4. / 3. * M_PI;
+  if (flux_a)
+    *flux_a = before_a + (*flux_a - before_a) * ball * c.radius_a * c.radius_a * c.radius_a / c.volume_a;
+  if (flux_b)
+    *flux_b = before_b + (*flux_b - before_b) * ball * c.radius_b * c.radius_b * c.radius_b / c.volume_b;
+}
+
+void StockContact::evaluate(StockSubContact& c) {
+  Models& m = *models_;
+  stock::SurfacesIntersectData& data = m.data;
+  fill(data, c, wall_);
+  data.contact_history = c.history;
+  data.contact_flags = wall_ ? nullptr : &m.flags;
+  m.on_a.reset();
+  m.on_b.reset();
+  data.kn = data.kt = data.gamman = data.gammat = 0;
+  data.Fn = data.Ft = 0;
+  if (data.rsq < data.radsum * data.radsum) {
+    m.surface->surfacesIntersect(data, m.on_a, m.on_b);
+    if (synchronised_ && c.advance)
+      synchronise(c);
+    m.normal->surfacesIntersect(data, m.on_a, m.on_b);
+    if (c.share != 1) {
+      // The dampers' part that the contact does not keep.
+      const double given_back = (1 - c.share) * data.gamman * data.vn;
+      for (int k = 0; k < 3; ++k) {
+        m.on_a.delta_F[k] += given_back * data.en[k];
+        m.on_b.delta_F[k] -= given_back * data.en[k];
+      }
+      data.Fn += given_back;
+      data.gamman *= c.share;
+      data.gammat *= c.share;
+    }
+    m.cohesion->surfacesIntersect(data, m.on_a, m.on_b);
+    tangential(c);
+    if (c.share != 1) { // dampers of rolling go with the root of the inertia
+      data.mi *= c.share * c.share;
+      data.mj *= c.share * c.share;
+    }
+    if (rolling_radius_ == RollingRadius::body) {
+      const auto distance = [](const double* arm, double reach, const double* n) {
+        const double x = arm[0] + reach * n[0], y = arm[1] + reach * n[1], z = arm[2] + reach * n[2];
+        return std::sqrt(x * x + y * y + z * z);
+      };
+      data.radi = distance(c.arm_a, -data.cri, data.en);
+      if (!wall_)
+        data.radj = distance(c.arm_b, data.crj, data.en);
+    }
+    m.rolling->surfacesIntersect(data, m.on_a, m.on_b);
+    m.cohesion->endSurfacesIntersect(data, m.on_a, m.on_b);
+    c.acts = true;
+  } else {
+    data.has_force_update = false;
+    close(c);
+    c.acts = data.has_force_update;
+  }
+  c.kn = data.kn;
+  c.kt = data.kt;
+  c.gamma_n = data.gamman;
+  c.gamma_t = data.gammat;
+  for (int k = 0; k < 3; ++k) {
+    c.force[k] = c.acts ? m.on_a.delta_F[k] : 0;
+    c.torque_a[k] = c.acts ? m.on_a.delta_torque[k] : 0;
+    c.torque_b[k] = c.acts ? m.on_b.delta_torque[k] : 0;
+  }
+}
+
+} // namespace eccentra::styles
