@@ -146,5 +146,5 @@ TEST(Overlap, IsRefusedWhereBothShareTheirRanks) {
                "fix flow all fluid/couple link solver every 40 overlap yes\nrun 40\n";
   const Outcome outcome = run(box, "solver_link");
   EXPECT_GT(outcome.status, 0);
-  EXPECT_NE(outcome.text.find("overlap yes belongs to link socket"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("keyword 'overlap': 'on' belongs to link socket"), std::string::npos) << outcome.text;
 }

@@ -3,6 +3,8 @@
 // Implements fix fluid/couple.
 #include "styles/fluid/fix_fluid_couple.h"
 
+#include "base/option_reader.h"
+#include "base/refusal.h"
 #include "link/stop_signal.h"
 #include "link/waiting.h"
 #include "styles/entry/fix_checkpoint.h"
@@ -55,7 +57,11 @@ double wrapped(double x, double low, double high) {
 } // namespace
 
 FixFluidCouple::FixFluidCouple(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {
-  read(std::vector<std::string>(arg + 3, arg + narg));
+  try {
+    read(std::vector<std::string>(arg + 3, arg + narg));
+  } catch (const std::invalid_argument& problem) {
+    refuse(problem.what());
+  }
   if (igroup != 0)
     refuse("works on all particles: write 'fix " + std::string(id) + " all fluid/couple ...'");
   nevery = 1;
@@ -100,67 +106,55 @@ void FixFluidCouple::refuse(const std::string& text) {
 }
 
 void FixFluidCouple::read(const std::vector<std::string>& arguments) {
-  bool waits = false;
-  for (std::size_t next = 0; next < arguments.size();) {
-    const std::string& keyword = arguments[next++];
-    const auto value = [&](const char* what) -> const std::string& {
-      if (next >= arguments.size())
-        refuse("the word '" + keyword + "' needs " + what);
-      return arguments[next++];
-    };
+  bool of_socket = false; // keywords that link solver has no use for
+  base::OptionReader reader(arguments);
+  while (reader.more()) {
+    const std::string& keyword = reader.keyword();
+    of_socket |= keyword == "keys" || keyword == "timeout" || keyword == "wait";
     if (keyword == "link") {
-      link_ = value("solver or socket ADDRESS");
+      link_ = reader.choice({"solver", "socket"});
       if (link_ == "socket")
-        address_ = value("an address");
-      else if (link_ != "solver")
-        refuse("link '" + link_ + "' is unknown: use solver, or socket ADDRESS");
-    } else if (keyword == "checkpoint" && next < arguments.size() &&
-               (arguments[next] == "auto" || arguments[next] == "off")) {
-      checkpoints_ = arguments[next++] == "auto" ? Checkpoints::by_clock : Checkpoints::off;
-    } else if (keyword == "every" || keyword == "checkpoint") {
-      const std::string what = keyword == "every" ? "DEM steps" : "coupling steps";
-      const std::string& text = value(("a number of " + what).c_str());
-      char* end = nullptr;
-      const long number = std::strtol(text.c_str(), &end, 10);
-      if (end == text.c_str() || *end || number < 1 || number > 1000000000L)
-        refuse(keyword + " has '" + text + "': give a whole number of " + what + " from 1 on");
-      (keyword == "every" ? interval_ : checkpoint_every_) = static_cast<int>(number);
-      if (keyword == "checkpoint")
+        address_ = reader.value("the address of the socket");
+    } else if (keyword == "every") {
+      interval_ = reader.count(1, "DEM steps");
+    } else if (keyword == "checkpoint") {
+      if (reader.at_number()) {
         checkpoints_ = Checkpoints::counted;
-    } else if (keyword == "overlap" || keyword == "lanes") {
-      const std::string& text = value("yes or no");
-      if (text != "yes" && text != "no")
-        refuse(keyword + " has '" + text + "': give yes or no");
-      (keyword == "overlap" ? overlap_ : rank_connections_) = text == "yes";
+        checkpoint_every_ = reader.count(1, "coupling steps");
+      } else {
+        const std::string& word = reader.value("auto, off or a number of coupling steps");
+        const bool by_clock = word == "auto" || word == "on" || word == "yes";
+        if (!by_clock && word != "off" && word != "no" && word != "none")
+          base::refuse("keyword 'checkpoint': '{}' is neither a word nor a number that it has; expected auto, off or a "
+                       "number of coupling steps",
+                       word);
+        checkpoints_ = by_clock ? Checkpoints::by_clock : Checkpoints::off;
+      }
+    } else if (keyword == "overlap") {
+      overlap_ = reader.on_off();
+    } else if (keyword == "lanes") {
+      rank_connections_ = reader.on_off();
     } else if (keyword == "keys") {
-      keys_ = value("a folder made by eccentra-keys");
-    } else if (keyword == "timeout" || keyword == "wait") {
-      const std::string& text = value("seconds");
-      char* end = nullptr;
-      const double seconds = std::strtod(text.c_str(), &end);
-      if (end == text.c_str() || *end || !(seconds > 0) || seconds > kLongestWait)
-        refuse(keyword + " has '" + text + "': give a positive number of seconds up to 1e6");
-      (keyword == "wait" ? timeout_.arrival : timeout_.silence) = seconds;
-      waits = true;
+      keys_ = reader.value("a folder made by eccentra-keys");
+    } else if (keyword == "timeout") {
+      timeout_.silence = reader.between(0, kLongestWait, "seconds");
+    } else if (keyword == "wait") {
+      timeout_.arrival = reader.between(0, kLongestWait, "seconds");
     } else {
-      refuse("unknown word '" + keyword +
-             "': known are link solver, link socket ADDRESS, every N, checkpoint M|auto|off, keys FOLDER, timeout "
-             "SECONDS, "
-             "wait SECONDS, overlap yes|no and lanes yes|no");
+      reader.unknown("link, every, checkpoint, keys, timeout, wait, overlap, lanes");
     }
   }
   if (link_.empty())
-    refuse(
-        "the word 'link' is missing: add link solver (the fluid solver hosts this script) or link socket ADDRESS (it "
-        "runs apart)");
-  if ((waits || !keys_.empty() || !rank_connections_) && link_ != "socket")
-    refuse("keys, timeout, wait and lanes belong to link socket: drop them");
+    base::refuse(
+        "keyword 'link' is missing; add link solver (the fluid solver hosts this script) or link socket ADDRESS "
+        "(it runs apart)");
+  if ((of_socket || !rank_connections_) && link_ != "socket")
+    base::refuse("keys, timeout, wait and lanes belong to link socket; drop them");
   if (overlap_ && link_ != "socket")
-    refuse(
-        "overlap yes belongs to link socket: with link solver particles and fluid share their ranks, which take turns "
-        "whatever the order; drop it");
+    base::refuse("keyword 'overlap': 'on' belongs to link socket, because with link solver particles and fluid share "
+                 "their ranks, which take turns whatever the order; drop it");
   if (interval_ == 0)
-    refuse("the word 'every' is missing: add every N, the DEM steps from one coupling step to the next");
+    base::refuse("keyword 'every' is missing; add every N, the DEM steps from one coupling step to the next");
 }
 
 int FixFluidCouple::setmask() {

@@ -4,6 +4,7 @@
 #include "styles/pairs/fix_timestep_limit.h"
 
 #include "base/eigen_views.h"
+#include "base/option_reader.h"
 #include "contact/feature_search.h"
 #include "contact/manifold.h"
 #include "styles/bodies/fix_cluster_bodies.h"
@@ -74,9 +75,9 @@ FixTimestepLimit::FixTimestepLimit(LAMMPS* lmp, int narg, char** arg) : Fix(lmp,
           throw std::invalid_argument("every must be a whole number of steps, not '" + std::string(value) + "'");
         nevery = static_cast<int>(steps);
       } else if (word == "enforce") {
-        if (std::strcmp(value, "yes") != 0 && std::strcmp(value, "no") != 0)
-          throw std::invalid_argument("enforce must be yes or no, not '" + std::string(value) + "'");
-        enforce_ = std::strcmp(value, "yes") == 0;
+        base::OptionReader reader({word, value});
+        reader.keyword();
+        enforce_ = reader.on_off();
       } else {
         throw std::invalid_argument("unknown word '" + word + "': safety, every, enforce and speed are there");
       }

@@ -3,9 +3,11 @@
 // Adds option arguments to the list that LIGGGHTS parses the arguments of a contact model with.
 #include "styles/rolling/contact_keywords.h"
 
+#include "base/option_reader.h"
 #include "styles/entry/private_access.h"
 
 #include <cstdio>
+#include <stdexcept>
 
 namespace eccentra::styles {
 // Settings offers on/off, yes/no and numbers; its list of arguments has no other way in.
@@ -13,9 +15,7 @@ struct SettingsList {
   using type = std::map<std::string, Setting*> Settings::*;
 };
 template struct PrivateMember<SettingsList, &Settings::settings>;
-} // namespace eccentra::styles
 
-namespace eccentra::styles {
 namespace {
 
 class OptionSetting : public Setting {
@@ -49,6 +49,32 @@ class OptionSetting : public Setting {
   std::vector<std::pair<std::string, int>> options_;
 };
 
+class SwitchSetting : public Setting {
+ public:
+  SwitchSetting(const std::string& model, const std::string& name, bool& target)
+      : Setting(name, 1), model_(model), target_(target) {}
+
+  int parseArguments(char** args) override {
+    if (name != args[0])
+      return 0;
+    base::OptionReader reader({args[0], args[1]});
+    reader.keyword();
+    try {
+      target_ = reader.on_off();
+    } catch (const std::invalid_argument& problem) {
+      error_message = model_ + ": " + problem.what();
+      return -1;
+    }
+    return 2;
+  }
+
+  void print_value(FILE* out) override { std::fprintf(out, "%s", target_ ? "on" : "off"); }
+
+ private:
+  std::string model_;
+  bool& target_;
+};
+
 class ShapeSetting : public Setting {
  public:
   explicit ShapeSetting(std::vector<std::string>& target) : Setting("shape", 2), target_(target) {}
@@ -70,16 +96,22 @@ class ShapeSetting : public Setting {
 } // namespace
 
 void register_shape_keywords(Settings& settings, std::vector<std::string>& target) {
-  Setting*& entry = (settings.*styles::Published<styles::SettingsList>::pointer)["shape"];
+  Setting*& entry = (settings.*Published<SettingsList>::pointer)["shape"];
   if (!entry)
     entry = new ShapeSetting(target);
 }
 
 void register_option(Settings& settings, const std::string& model, const std::string& name, int& target,
                      const std::vector<std::pair<std::string, int>>& options) {
-  Setting*& entry = (settings.*styles::Published<styles::SettingsList>::pointer)[name];
+  Setting*& entry = (settings.*Published<SettingsList>::pointer)[name];
   if (!entry)
     entry = new OptionSetting(model, name, target, options);
+}
+
+void register_switch(Settings& settings, const std::string& model, const std::string& name, bool& target) {
+  Setting*& entry = (settings.*Published<SettingsList>::pointer)[name];
+  if (!entry)
+    entry = new SwitchSetting(model, name, target);
 }
 
 } // namespace eccentra::styles

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Words of a contact model that name one of several options, with a sentence that lists them, or a shape.
+// Words of a contact model that name one of several options, with a sentence that lists them, a switch, or a shape.
 #pragma once
 
 #include <mpi.h>
@@ -17,6 +17,9 @@ namespace eccentra::styles {
 /// `name OPTION`, one of `options` (word and value); the first is the default. `target` must outlive the parsing.
 void register_option(Settings& settings, const std::string& model, const std::string& name, int& target,
                      const std::vector<std::pair<std::string, int>>& options);
+
+/// `name on|off`, also yes, no and none; `target` has the default. It must outlive the parsing.
+void register_switch(Settings& settings, const std::string& model, const std::string& name, bool& target);
 
 /// `shape WORD VALUE` (`shape stl NAME spheres N` has four arguments after it): the arguments go to `target`.
 void register_shape_keywords(Settings& settings, std::vector<std::string>& target);

@@ -25,8 +25,8 @@ constexpr char kId[] = "eccentra_rolling_orientation";
 constexpr char kProperty[] = "eccentricOrientation";
 constexpr double kUnitDiameter = 2.0; ///< R_eq = 1
 
-const styles::RegisterFix<FixSphereOrientation>
-    registration(kStyle, "orientation of rolling_friction eccentric (made by the model)");
+const RegisterFix<FixSphereOrientation> registration(kStyle,
+                                                     "orientation of rolling_friction eccentric (made by the model)");
 
 Eigen::Quaterniond random_orientation(long seed, int tag) {
   std::seed_seq seeds{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(tag)};
@@ -73,7 +73,7 @@ FixSphereOrientation* FixSphereOrientation::make(LAMMPS_NS::LAMMPS* lmp, const s
     std::size_t used = 0;
     shape::Notes notes;
     const shape::ClusterShape body = shape::make_shape(shape_keywords, 0, used, kUnitDiameter, notes);
-    styles::print_notes(lmp, "rolling_friction eccentric", notes);
+    print_notes(lmp, "rolling_friction eccentric", notes);
     fix->shape_ = std::make_unique<contact::SupportTable>(body);
   } catch (const std::invalid_argument& problem) {
     lmp->error->all(FLERR, (std::string("rolling_friction eccentric: ") + problem.what()).c_str());

@@ -31,7 +31,7 @@ template <> class RollingModel<ROLLING_ECCENTRIC> : public RollingModelBase {
 
   void registerSettings(Settings& settings) {
     eccentra::styles::register_shape_keywords(settings, shape_keywords_);
-    settings.registerOnOff("rockingDamping", damped_, true);
+    eccentra::styles::register_switch(settings, "rolling_friction eccentric", "rockingDamping", damped_);
     settings.registerDoubleSetting("orientationSeed", seed_, 1.0);
   }
 

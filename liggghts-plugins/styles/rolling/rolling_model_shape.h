@@ -32,7 +32,7 @@ template <> class RollingModel<ROLLING_SHAPE> : public RollingModelBase {
   void registerSettings(Settings& settings) {
     eccentra::styles::register_option(settings, kName, "form", form_,
                                       {{"limited", kLimited}, {"directional", kDirectional}, {"epsd", kSpringDashpot}});
-    settings.registerOnOff("torsionTorque", torsion_, true);
+    eccentra::styles::register_switch(settings, kName, "torsionTorque", torsion_);
     settings.registerDoubleSetting("rollingDampingRatio", damping_ratio_, kDefaultDampingRatio);
   }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Constant directional torque at walls: stock `rolling_friction cdt`, with the spin taken relative to the wall.
+#include "base/option_reader.h"
 #include "styles/rolling/wall_rolling.h"
 
 #include "force.h"
@@ -22,12 +23,12 @@ namespace {
 class ConstantDirectionalTorque : public WallRolling {
  public:
   void read_arguments(const std::vector<std::string>& arguments, std::size_t& at) override {
-    if (at + 1 < arguments.size() && arguments[at] == "torsionTorque") {
-      if (arguments[at + 1] != "on" && arguments[at + 1] != "off")
-        throw std::invalid_argument("torsionTorque must be on or off, not '" + arguments[at + 1] + "'");
-      torsion_ = arguments[at + 1] == "on";
-      at += 2;
-    }
+    if (at >= arguments.size() || arguments[at] != "torsionTorque")
+      return;
+    base::OptionReader reader({arguments.begin() + std::ptrdiff_t(at), arguments.end()});
+    reader.keyword();
+    torsion_ = reader.on_off();
+    at += reader.at();
   }
 
   void init(LAMMPS_NS::LAMMPS* lmp) override {

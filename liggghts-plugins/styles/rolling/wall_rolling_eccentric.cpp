@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // rolling_friction eccentric at our walls: eq (32) with the shape that pair_style gives the spheres.
+#include "base/option_reader.h"
 #include "styles/rolling/fix_sphere_orientation.h"
 #include "styles/rolling/wall_rolling.h"
 
@@ -19,11 +20,10 @@ class EccentricWallRolling : public styles::WallRolling {
           "the shape belongs to the particles: give 'shape ...' in pair_style, not at the wall");
     if (arguments[at] != "rockingDamping")
       return;
-    if (at + 1 >= arguments.size() || (arguments[at + 1] != "on" && arguments[at + 1] != "off"))
-      throw std::invalid_argument("rockingDamping must be on or off, not '" +
-                                  (at + 1 < arguments.size() ? arguments[at + 1] : std::string()) + "'");
-    damped_ = arguments[at + 1] == "on";
-    at += 2;
+    base::OptionReader reader({arguments.begin() + std::ptrdiff_t(at), arguments.end()});
+    reader.keyword();
+    damped_ = reader.on_off();
+    at += reader.at();
   }
 
   void init(LAMMPS_NS::LAMMPS* lmp) override {

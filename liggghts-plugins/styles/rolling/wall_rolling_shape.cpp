@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // rolling_friction shape at walls: eq (19) with the coefficient of eq (33), in the three forms of the pair model.
+#include "base/option_reader.h"
 #include "contact/rolling_torque.h"
 #include "styles/rolling/coefficients.h"
 #include "styles/rolling/fix_rolling_limited.h"
@@ -23,32 +24,32 @@ class ShapeRolling : public WallRolling {
   void read_arguments(const std::vector<std::string>& arguments, std::size_t& at) override {
     if (at >= arguments.size())
       return;
-    const std::string& word = arguments[at];
-    if (word != "form" && word != "torsionTorque" && word != "rollingDampingRatio")
+    base::OptionReader reader({arguments.begin() + std::ptrdiff_t(at), arguments.end()});
+    const std::string& word = reader.keyword();
+    if (word == "form") {
+      const std::string& form = reader.choice({"limited", "directional", "epsd"});
+      form_ = form == "limited" ? Form::limited : form == "directional" ? Form::directional : Form::epsd;
+    } else if (word == "torsionTorque") {
+      torsion_ = reader.on_off();
+    } else if (word == "rollingDampingRatio") {
+      damping_ratio_ = reader.at_least(0);
+    } else {
       return;
-    if (at + 1 >= arguments.size())
-      throw std::invalid_argument("the line ends where a value for '" + word + "' was expected");
-    const std::string& value = arguments[at + 1];
-    if (word == "form")
-      read_form(value);
-    else if (word == "torsionTorque")
-      read_torsion(value);
-    else
-      read_damping(value);
-    at += 2;
+    }
+    at += reader.at();
   }
 
   void init(LAMMPS_NS::LAMMPS* lmp) override {
     lmp_ = lmp;
     PropertyRegistry& registry = lmp->force->registry;
     const char* caller = "wall/gran/cluster rolling_friction shape";
-    registry.registerProperty("eccentraRollingFriction", &styles::create_rolling_coefficient);
-    registry.registerProperty("eccentraShapeRollingFriction", &styles::create_shape_coefficient);
+    registry.registerProperty("eccentraRollingFriction", &create_rolling_coefficient);
+    registry.registerProperty("eccentraShapeRollingFriction", &create_shape_coefficient);
     registry.connect("eccentraRollingFriction", mu_r_, caller);
     registry.connect("eccentraShapeRollingFriction", mu_shape_, caller);
     if (form_ != Form::limited)
       return;
-    styles::FixRollingLimited* fix = styles::FixRollingLimited::find(lmp);
+    FixRollingLimited* fix = FixRollingLimited::find(lmp);
     if (!fix)
       throw std::invalid_argument(
           "rolling_friction shape form limited at a wall needs the same form in pair_style (with "
@@ -79,28 +80,6 @@ class ShapeRolling : public WallRolling {
 
  private:
   enum class Form { limited, directional, epsd };
-
-  void read_form(const std::string& value) {
-    if (value == "limited")
-      form_ = Form::limited;
-    else if (value == "directional")
-      form_ = Form::directional;
-    else if (value == "epsd")
-      form_ = Form::epsd;
-    else
-      throw std::invalid_argument("form must be limited, directional or epsd, not '" + value + "'");
-  }
-  void read_torsion(const std::string& value) {
-    if (value != "on" && value != "off")
-      throw std::invalid_argument("torsionTorque must be on or off, not '" + value + "'");
-    torsion_ = value == "on";
-  }
-  void read_damping(const std::string& value) {
-    char* end = nullptr;
-    damping_ratio_ = std::strtod(value.c_str(), &end);
-    if (end == value.c_str() || *end || !(damping_ratio_ >= 0.0) || !std::isfinite(damping_ratio_))
-      throw std::invalid_argument("rollingDampingRatio must be a number >= 0, not '" + value + "'");
-  }
 
   /// The torque that the contact holds already; the limiter changes it once the torques of all contacts are known.
   Eigen::Vector3d limited(const WallRollingContact& contact, const Eigen::Vector3d& held, double cap) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // LIGGGHTS's own spring models of rolling friction at our walls: its code, given the spin relative to the wall.
+#include "base/option_reader.h"
 #include "styles/rolling/wall_rolling.h"
 
 #include <mpi.h>
@@ -42,7 +43,7 @@ class Surroundings : public stock::ContactModelBase {
   void tally_pw(double, int, int, int) override {}
 };
 
-template <int Rolling> class StockWallRolling : public styles::WallRolling {
+template <int Rolling> class StockWallRolling : public WallRolling {
  public:
   /// `option`: the one on/off word that may follow, or null.
   explicit StockWallRolling(const char* option) : option_(option) {}
@@ -50,11 +51,10 @@ template <int Rolling> class StockWallRolling : public styles::WallRolling {
   void read_arguments(const std::vector<std::string>& arguments, std::size_t& at) override {
     if (!option_ || at >= arguments.size() || arguments[at] != option_)
       return;
-    if (at + 1 >= arguments.size() || (arguments[at + 1] != "on" && arguments[at + 1] != "off"))
-      throw std::invalid_argument(std::string(option_) + " must be on or off, not '" +
-                                  (at + 1 < arguments.size() ? arguments[at + 1] : "") + "'");
-    value_ = arguments[at + 1];
-    at += 2;
+    base::OptionReader reader({arguments.begin() + std::ptrdiff_t(at), arguments.end()});
+    reader.keyword();
+    on_ = reader.on_off();
+    at += reader.at();
   }
 
   void init(LAMMPS_NS::LAMMPS* lmp) override {
@@ -63,14 +63,14 @@ template <int Rolling> class StockWallRolling : public styles::WallRolling {
     model_ = std::make_unique<stock::RollingModel<Rolling>>(lmp, &history, surroundings_.get());
     Settings settings(lmp);
     model_->registerSettings(settings);
-    std::string arguments[] = {option_ ? option_ : "", value_};
+    std::string arguments[] = {option_ ? option_ : "", on_ ? "on" : "off"};
     char* arg[] = {arguments[0].data(), arguments[1].data()};
     settings.parseArguments(option_ ? 2 : 0, arg);
     model_->postSettings(&history, surroundings_.get());
     model_->connectToProperties(lmp->force->registry);
   }
 
-  Eigen::Vector3d torque(const styles::WallRollingContact& contact) override {
+  Eigen::Vector3d torque(const WallRollingContact& contact) override {
     double history[kMost + 1] = {};
     std::copy_n(contact.memory, kKept, history);
     stock::SurfacesIntersectData data{};
@@ -107,19 +107,19 @@ template <int Rolling> class StockWallRolling : public styles::WallRolling {
 
  private:
   const char* option_;
-  std::string value_ = "off";
+  bool on_ = false;
   std::unique_ptr<Surroundings> surroundings_;
   std::unique_ptr<stock::RollingModel<Rolling>> model_;
 };
 
-template <int Rolling> styles::WallRollingCreator creator(const char* option) {
+template <int Rolling> WallRollingCreator creator(const char* option) {
   return [option] { return std::make_unique<StockWallRolling<Rolling>>(option); };
 }
 
-const styles::RegisterWallRolling epsd("epsd", creator<stock::ROLLING_EPSD>("torsionTorque"));
-const styles::RegisterWallRolling epsd2("epsd2", creator<stock::ROLLING_EPSD2>("torsionTorque"));
-const styles::RegisterWallRolling epsd3("epsd3", creator<stock::ROLLING_EPSD3>("torsionTorque"));
-const styles::RegisterWallRolling luding("luding", creator<stock::ROLLING_LUDING>(nullptr));
+const RegisterWallRolling epsd("epsd", creator<stock::ROLLING_EPSD>("torsionTorque"));
+const RegisterWallRolling epsd2("epsd2", creator<stock::ROLLING_EPSD2>("torsionTorque"));
+const RegisterWallRolling epsd3("epsd3", creator<stock::ROLLING_EPSD3>("torsionTorque"));
+const RegisterWallRolling luding("luding", creator<stock::ROLLING_LUDING>(nullptr));
 
 } // namespace
 } // namespace eccentra::styles

@@ -32,8 +32,8 @@ void WallSpin::refresh() {
   primitive_.setZero();
   if (turning_) {
     primitive_ = turning_->wall_spin();
-  } else if (stock_ && !stock_->is_mesh_wall() && stock_->*styles::Published<styles::WallShearAxis>::pointer >= 0) {
-    const auto& spin = stock_->*styles::Published<styles::WallShearVector>::pointer;
+  } else if (stock_ && !stock_->is_mesh_wall() && stock_->*Published<WallShearAxis>::pointer >= 0) {
+    const auto& spin = stock_->*Published<WallShearVector>::pointer;
     primitive_ = Eigen::Vector3d(spin[0], spin[1], spin[2]);
   }
 }

@@ -3,6 +3,8 @@
 // Reads the arguments of wall/gran/cluster.
 #include "styles/walls/wall_arguments.h"
 
+#include "base/option_reader.h"
+#include "base/refusal.h"
 #include "contact/stock_contact_keywords.h"
 
 #include <cmath>
@@ -32,16 +34,15 @@ class Reader {
   }
   double number(const std::string& name) {
     const std::string& word = next("a number for " + name);
-    std::size_t used = 0;
-    double value = 0.0;
-    try {
-      value = std::stod(word, &used);
-    } catch (const std::exception&) {
-      used = 0;
-    }
-    if (used != word.size() || !std::isfinite(value))
-      throw std::invalid_argument(name + " must be a finite number, not '" + word + "'");
-    return value;
+    const std::optional<double> value = base::finite_number(word);
+    if (!value)
+      base::refuse("{}: '{}' is not a finite number; expected one such as 0.3 or 5e-3", name, word);
+    return *value;
+  }
+  bool on_off(const std::string& name) {
+    base::OptionReader reader({name, next("on or off after " + name)});
+    reader.keyword();
+    return reader.on_off();
   }
   /// True for `yes`, false for `no`, whichever word follows `name`.
   bool choose(const std::string& name, const std::string& yes, const std::string& no) {
@@ -240,7 +241,7 @@ WallArguments read_wall_arguments(const std::vector<std::string>& all) {
       arguments.damping =
           reader.choose(word, "stock", "paper") ? contact::DampingLaw::stock : contact::DampingLaw::paper;
     } else if (word == "tangential_damping") {
-      arguments.tangential_damping = reader.choose(word, "on", "off");
+      arguments.tangential_damping = reader.on_off(word);
     } else if (word == "primitive") {
       read_primitive(reader, arguments);
     } else if (word == "mesh") {
