@@ -122,7 +122,7 @@ void check_scene(LAMMPS* lmp) {
     check_bodies(lmp, *bodies);
 }
 
-const styles::RegisterSceneCheck registered(&check_scene);
+const RegisterSceneCheck registered(&check_scene);
 
 } // namespace
 

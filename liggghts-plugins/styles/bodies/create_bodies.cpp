@@ -265,8 +265,8 @@ class CreateBodies {
   std::vector<shape::ListedBody> listed_;
 };
 
-const styles::RegisterCommand registered("create_bodies", "clusters at the places and in the orientations of a list",
-                                         [](LAMMPS* lmp, int narg, char** arg) { CreateBodies(lmp, narg, arg); });
+const RegisterCommand registered("create_bodies", "clusters at the places and in the orientations of a list",
+                                 [](LAMMPS* lmp, int narg, char** arg) { CreateBodies(lmp, narg, arg); });
 
 } // namespace
 

@@ -22,8 +22,8 @@ class FixAveEulerCluster : public FixAveEuler {
   }
 };
 
-const styles::RegisterFix<FixAveEulerCluster> registered("ave/euler", "stock's, with the true volumes of clusters");
-const styles::RegisterFix<FixAveEulerCluster> stress("ave/euler/stress", "stock's, with the true volumes of clusters");
+const RegisterFix<FixAveEulerCluster> registered("ave/euler", "stock's, with the true volumes of clusters");
+const RegisterFix<FixAveEulerCluster> stress("ave/euler/stress", "stock's, with the true volumes of clusters");
 
 } // namespace
 

@@ -192,12 +192,10 @@ template <class Stock> class InsertWithClusters : public Stock {
   int last_old_tag_ = 0;
 };
 
-const styles::RegisterFix<InsertWithClusters<FixInsertPack>> pack("insert/pack",
-                                                                  "stock's, for clusters as for spheres");
-const styles::RegisterFix<InsertWithClusters<FixInsertRateRegion>> rate("insert/rate/region",
-                                                                        "stock's, for clusters as for spheres");
-const styles::RegisterFix<InsertWithClusters<FixInsertStream>> stream("insert/stream",
-                                                                      "stock's, for clusters as for spheres");
+const RegisterFix<InsertWithClusters<FixInsertPack>> pack("insert/pack", "stock's, for clusters as for spheres");
+const RegisterFix<InsertWithClusters<FixInsertRateRegion>> rate("insert/rate/region",
+                                                                "stock's, for clusters as for spheres");
+const RegisterFix<InsertWithClusters<FixInsertStream>> stream("insert/stream", "stock's, for clusters as for spheres");
 
 } // namespace
 

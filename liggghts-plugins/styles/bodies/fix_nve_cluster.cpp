@@ -240,7 +240,7 @@ class FixNveCluster : public Fix {
 };
 
 namespace {
-const styles::RegisterFix<FixNveCluster> registered("nve/cluster", "motion of clusters (and plain spheres)");
+const RegisterFix<FixNveCluster> registered("nve/cluster", "motion of clusters (and plain spheres)");
 }
 
 } // namespace eccentra::styles

@@ -34,8 +34,8 @@ Fix* create_template(LAMMPS* lmp, int narg, char** arg) {
   return new FixParticletemplateCluster(lmp, TemplateArguments(lmp, narg, arg));
 }
 
-const styles::RegisterStyle registered({"fix", style, "a cluster of spheres for fix insert/*: one body, one atom",
-                                        &create_template});
+const RegisterStyle registered({"fix", style, "a cluster of spheres for fix insert/*: one body, one atom",
+                                &create_template});
 
 [[noreturn]] void fail(LAMMPS* lmp, const char* id, const std::string& sentence) {
   lmp->error->all(FLERR, ("fix " + std::string(id) + " " + style + ": " + sentence).c_str());
@@ -233,7 +233,7 @@ FixParticletemplateCluster::FixParticletemplateCluster(LAMMPS* lmp, const Templa
       fail(lmp, id,
            "unknown word '" + arguments.shape_keywords[used] + "' after the shape '" + shape.name() +
                "': diameter and orientation may follow");
-    styles::print_notes(lmp, "fix " + std::string(id) + " " + style, notes);
+    print_notes(lmp, "fix " + std::string(id) + " " + style, notes);
     volume_ = shape.volume();
     pdf_radius = new PDF(error);
     pdf_radius->set_params<RANDOM_CONSTANT>(shape.bounding_radius());

@@ -86,13 +86,13 @@ void refuse_command(LAMMPS* lmp, const FixClusterBodies& bodies, const std::stri
         refuse(lmp, bodies, refused_row(kind, first), command, 0);
 }
 
-void guard(LAMMPS* lmp, const std::string& command, const Words& arguments, const styles::StockCommand& stock) {
+void guard(LAMMPS* lmp, const std::string& command, const Words& arguments, const StockCommand& stock) {
   if (const FixClusterBodies* bodies = bodies_in_script(lmp))
     refuse_command(lmp, *bodies, command, arguments);
   stock(arguments);
 }
 
-const styles::RegisterCommandGuard registered("*", &guard);
+const RegisterCommandGuard registered("*", &guard);
 
 void refuse_scene(LAMMPS* lmp) {
   if (lmp->domain->dimension != 3)

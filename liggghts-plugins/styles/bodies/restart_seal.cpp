@@ -109,7 +109,7 @@ void seal_written(LAMMPS* lmp, const std::string& file) {
 }
 
 void read_restart(LAMMPS* lmp, const std::string&, const std::vector<std::string>& arguments,
-                  const styles::StockCommand& stock) {
+                  const StockCommand& stock) {
   std::string sentence;
   if (lmp->comm->me == 0 && arguments.size() == 1) {
     const std::string file = latest(arguments[0]);
@@ -131,8 +131,8 @@ void read_restart(LAMMPS* lmp, const std::string&, const std::vector<std::string
   stock(arguments);
 }
 
-const styles::RegisterCommandGuard registered_guard("read_restart", &read_restart);
-const styles::RegisterRestartListener registered_listener(&seal_written);
+const RegisterCommandGuard registered_guard("read_restart", &read_restart);
+const RegisterRestartListener registered_listener(&seal_written);
 
 } // namespace
 

@@ -69,7 +69,7 @@ namespace {
 
 /// Coefficients that are all 0 would not do anything either if they were read.
 bool asks_for_nothing(FixPropertyGlobal& property) {
-  const int count = property.*styles::Published<PropertyCount>::pointer;
+  const int count = property.*Published<PropertyCount>::pointer;
   const double* values = property.get_values();
   return values && std::all_of(values, values + count, [](double value) { return value == 0; });
 }
@@ -85,7 +85,7 @@ void name_unread_properties(LAMMPS* lmp) {
     auto* property = dynamic_cast<FixPropertyGlobal*>(lmp->modify->fix[f]);
     if (!property)
       continue;
-    const std::string name = property->*styles::Published<PropertyName>::pointer;
+    const std::string name = property->*Published<PropertyName>::pointer;
     if (names_looked_for().count(name) || asks_for_nothing(*property) || !named.insert(name).second)
       continue;
     if (lmp->comm->me == 0)

@@ -69,7 +69,7 @@ std::vector<const StockStyle*> set_words(const Words& arguments) {
   return found;
 }
 
-void set(LAMMPS* lmp, const std::string&, const Words& arguments, const styles::StockCommand& stock) {
+void set(LAMMPS* lmp, const std::string&, const Words& arguments, const StockCommand& stock) {
   FixClusterBodies* bodies = bodies_in_script(lmp);
   if (!bodies) {
     stock(arguments);
@@ -144,7 +144,7 @@ void turn_bodies(LAMMPS* lmp, FixClusterBodies& bodies, int group_bit, const Eig
       }
 }
 
-void displace_atoms(LAMMPS* lmp, const std::string&, const Words& arguments, const styles::StockCommand& stock) {
+void displace_atoms(LAMMPS* lmp, const std::string&, const Words& arguments, const StockCommand& stock) {
   FixClusterBodies* bodies = bodies_in_script(lmp);
   const int group = arguments.empty() ? -1 : lmp->group->find(arguments[0].c_str());
   constexpr std::size_t axis = 5, degrees = 8;
@@ -188,7 +188,7 @@ void renumber(LAMMPS* lmp, FixClusterHistory& history) {
   }
 }
 
-void delete_atoms(LAMMPS* lmp, const std::string&, const Words& arguments, const styles::StockCommand& stock) {
+void delete_atoms(LAMMPS* lmp, const std::string&, const Words& arguments, const StockCommand& stock) {
   FixClusterHistory* history = FixClusterHistory::find(lmp);
   if (!history || lmp->atom->molecular || arguments.size() < 2) {
     stock(arguments);
@@ -208,7 +208,7 @@ void delete_atoms(LAMMPS* lmp, const std::string&, const Words& arguments, const
     renumber(lmp, *history);
 }
 
-const styles::RegisterCommandGuard registered[] = {
+const RegisterCommandGuard registered[] = {
     {"set", &set}, {"displace_atoms", &displace_atoms}, {"delete_atoms", &delete_atoms}};
 
 } // namespace

@@ -224,8 +224,8 @@ class ComputeContactClusterLocal : public Compute {
 };
 
 namespace {
-const styles::RegisterCompute<ComputeContactClusterLocal> registered("contact/cluster/local",
-                                                                     "a row per sub-contact: forces, overlap, place");
+const RegisterCompute<ComputeContactClusterLocal> registered("contact/cluster/local",
+                                                             "a row per sub-contact: forces, overlap, place");
 }
 
 } // namespace eccentra::styles
