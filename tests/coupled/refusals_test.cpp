@@ -76,7 +76,9 @@ TEST(CoupledRefusals, ScriptWithoutACouplingStep) {
 TEST(CoupledRefusals, WrongWordsOfTheFix) {
   BoxCase box = one_sphere();
   box.script = replaced(box.script, "every 40", "every 0");
-  expect_refusal(box, "every", "keyword 'every': '0' is not whole, too small or too large; expected a whole number of DEM steps of at least 1");
+  expect_refusal(
+      box, "every",
+      "keyword 'every': '0' is not whole, too small or too large; expected a whole number of DEM steps of at least 1");
   box = one_sphere();
   box.script = replaced(box.script, "link solver", "link solved");
   expect_refusal(box, "word", "keyword 'link': 'solved' is unknown; expected solver or socket");
