@@ -105,13 +105,13 @@ TEST(Switches, EachRefusesAnotherWordWithItsName) {
 /// Files that compare words with on or off although they read no switch of ours.
 const std::set<std::string> kOthers = {
     "base/option_reader.cpp",
-    "styles/entry/script_replay.cpp",            // a keyword of stock's run
-    "styles/bodies/fix_insert.cpp",              // keywords of stock, which stock reads, too
-    "styles/pairs/body_commands.cpp",            // the same
-    "styles/pairs/pair_gran_cluster.cpp",        // models by name
-    "styles/walls/wall_arguments.cpp",           // models by name
-    "styles/fluid/fix_fluid_couple.cpp",         // checkpoint: auto, off or a number
-    "styles/rolling/fix_sphere_orientation.cpp", // writes a command of stock
+    "styles/entry/script_replay.cpp",             // a keyword of stock's run
+    "styles/bodies/fix_insert.cpp",               // keywords of stock, which stock reads, too
+    "styles/pairs/body_commands.cpp",             // the same
+    "styles/pairs/contact_keywords_of_pairs.cpp", // words of LIGGGHTS's own models
+    "styles/walls/wall_arguments.cpp",            // models by name
+    "styles/fluid/fix_fluid_couple.cpp",          // checkpoint: auto, off or a number
+    "styles/rolling/fix_sphere_orientation.cpp",  // writes a command of stock
 };
 
 TEST(Switches, NoFileReadsOneByItself) {

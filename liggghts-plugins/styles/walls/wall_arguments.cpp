@@ -219,7 +219,7 @@ WallArguments read_wall_arguments(const std::vector<std::string>& all) {
       arguments.rolling_radius =
           reader.choose(word, "body", "sub_sphere") ? RollingRadius::body : RollingRadius::sub_sphere;
     } else if (contact::is_switch_of_a_model(word)) {
-      if (reader.choose(word, "on", "off")) {
+      if (reader.on_off(word)) {
         arguments.options.push_back(word);
         arguments.options.push_back("on");
       }
