@@ -48,5 +48,5 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/lib")
 execute_process(COMMAND dpkg-query -W -f "\${Version}" liggghts OUTPUT_VARIABLE _liggghts ERROR_QUIET)
 execute_process(COMMAND dpkg-query -W -f "\${Version}" libopenfoam OUTPUT_VARIABLE _openfoam ERROR_QUIET)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
-  "liggghts (= ${_liggghts}), openfoam (= ${_openfoam}), libopenfoam (= ${_openfoam}), openmpi-bin, python3, python3-matplotlib, xvfb, xauth, libgl1-mesa-dri")
+  "liggghts (= ${_liggghts}), openfoam (= ${_openfoam}), libopenfoam (= ${_openfoam}), openmpi-bin, python3, python3-matplotlib, xvfb, libgl1-mesa-dri")
 include(CPack)
