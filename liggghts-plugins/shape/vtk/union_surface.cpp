@@ -18,6 +18,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -25,9 +26,35 @@ namespace eccentra::shape {
 
 namespace {
 
+/// Triangles with sides above `longest` [m] in halves: delta_e varies over a flat face.
+TriangleSurface refined(TriangleSurface surface, double longest) {
+  for (std::size_t n = 0; n < surface.triangles.size();) {
+    const std::array<int, 3> t = surface.triangles[n];
+    int side = 0;
+    double length = 0;
+    for (int k = 0; k < 3; ++k)
+      if (const double l = (surface.points[t[(k + 1) % 3]].position - surface.points[t[k]].position).norm();
+          l > length) {
+        length = l;
+        side = k;
+      }
+    if (length <= longest) {
+      ++n;
+      continue;
+    }
+    const int from = t[side], to = t[(side + 1) % 3], tip = t[(side + 2) % 3];
+    const SurfacePoint a = surface.points[from], b = surface.points[to];
+    const int middle = static_cast<int>(surface.points.size());
+    surface.points.push_back({(a.position + b.position) / 2, (a.normal + b.normal).normalized(), a.vertex});
+    surface.triangles[n] = {from, middle, tip};
+    surface.triangles.push_back({middle, to, tip});
+  }
+  return surface;
+}
+
 vtkSmartPointer<vtkPolyData> surface_of_hull(const RoundedHull& hull, const Eigen::Vector3d& offset, int fineness) {
-  const TriangleSurface surface = drawn_surface(hull, std::max(2, fineness / 8));
   const double unit = hull.equivalent_radius();
+  const TriangleSurface surface = refined(drawn_surface(hull, std::max(2, fineness / 8)), 8 * unit / fineness);
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkFloatArray> normal, eccentricity, number;
