@@ -11,14 +11,14 @@ namespace eccentra::closures {
 namespace {
 
 template <class Law> std::unique_ptr<Effect> make_drag(const char* name, const Rheology& fluid) {
-  if (fluid.newtonian())
-    return std::make_unique<DragEffect<NewtonianStress, Law>>(name, fluid);
-  return std::make_unique<DragEffect<HerschelBulkleyStress, Law>>(name, fluid);
+  return with_stress(fluid, [&](auto stress) -> std::unique_ptr<Effect> {
+    return std::make_unique<DragEffect<decltype(stress), Law>>(name, fluid);
+  });
 }
 template <class Law> std::unique_ptr<Effect> make_oriented(const char* name, const Rheology& fluid) {
-  if (fluid.newtonian())
-    return std::make_unique<OrientedDrag<NewtonianStress, Law>>(name, fluid);
-  return std::make_unique<OrientedDrag<HerschelBulkleyStress, Law>>(name, fluid);
+  return with_stress(fluid, [&](auto stress) -> std::unique_ptr<Effect> {
+    return std::make_unique<OrientedDrag<decltype(stress), Law>>(name, fluid);
+  });
 }
 
 template <class Law>
@@ -29,7 +29,9 @@ ValueAndSlope reduced(const ShapeFactors& shape, const DragPlace& place, const R
 template <class Law>
 double force(const ShapeFactors& shape, const DragPlace& place, const Rheology& fluid, double d, double speed) {
   const auto law = make_law<Law>(shape, fluid).in(place);
-  return drag_resistance<Law>(HerschelBulkleyStress(fluid), law, d, fluid.density, place.fraction)(speed).value;
+  return with_stress(fluid, [&](auto stress) {
+    return drag_resistance<Law>(stress, law, d, fluid.density, place.fraction)(speed).value;
+  });
 }
 
 /// A law that defines its own use of the fraction.
@@ -82,6 +84,11 @@ std::string drag_law_names() {
 double beris_yield_weight(const DragLaw& law, const Rheology& fluid) {
   constexpr double weight_over_force = 4.0 / 3.0; // V (rho_p - rho_f) g over (pi/8) d^2 (rho_p - rho_f) g d
   return weight_over_force / (kBerisYield * law.reduced(ShapeFactors{}, DragPlace{}, fluid, 0.0).value);
+}
+
+double cross_yield_weight(const DragLaw& law, const Rheology& fluid) {
+  constexpr double stokes = 24.0;
+  return cross_coefficient(fluid.index) * stokes / law.reduced(ShapeFactors{}, DragPlace{}, fluid, 0.0).value;
 }
 
 } // namespace eccentra::closures

@@ -34,4 +34,8 @@ std::string drag_law_names();
 /// The yield weight with which a sphere under this law rests where Beris et al. (1985) say: 4/(0.143 G(0)).
 double beris_yield_weight(const DragLaw& law, const Rheology& fluid);
 
+/// The weight c of the cross term with which the drag of a creeping sphere has the term 3 pi d^2 c24 sqrt(k (U/d)^n
+/// tau0) under every law: c = c24 24/G(0), c24 = cross_coefficient(n).
+double cross_yield_weight(const DragLaw& law, const Rheology& fluid);
+
 } // namespace eccentra::closures

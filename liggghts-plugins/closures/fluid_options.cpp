@@ -53,7 +53,7 @@ void read_sphericity(OptionReader& reader, FluidOptions& options, int atom_types
 void weigh_stress(FluidOptions& options, const std::set<std::string>& said) {
   Rheology& fluid = options.rheology;
   const DragLaw* law = find_drag_law(options.drag);
-  for (const char* word : {"power_law_factor", "yield_weight"})
+  for (const char* word : {"power_law_factor", "yield_weight", "yield_form"})
     if (!law && said.count(word))
       refuse("keyword '{}' weighs the stress scale of a drag law, but there is none; add drag NAME", word);
   if (options.power_law_factor) {
@@ -64,6 +64,8 @@ void weigh_stress(FluidOptions& options, const std::set<std::string>& said) {
   }
   if (law)
     fluid.yield_weight = options.beris_yield ? beris_yield_weight(*law, fluid) : law->own_yield_weight;
+  if (law && options.cross_yield)
+    fluid.cross_weight = cross_yield_weight(*law, fluid);
 }
 
 void check_orientation(const FluidOptions& options) {
@@ -87,9 +89,8 @@ void check_orientation(const FluidOptions& options) {
 }
 
 template <template <class> class Torque> std::unique_ptr<Effect> make_torque(const Rheology& fluid) {
-  if (fluid.newtonian())
-    return std::make_unique<Torque<NewtonianStress>>(fluid);
-  return std::make_unique<Torque<HerschelBulkleyStress>>(fluid);
+  return with_stress(
+      fluid, [&](auto stress) -> std::unique_ptr<Effect> { return std::make_unique<Torque<decltype(stress)>>(fluid); });
 }
 
 } // namespace
@@ -115,6 +116,8 @@ FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int a
       options.power_law_factor = reader.choice({"renaud", "none"}) != "none";
     } else if (keyword == "yield_weight") {
       options.beris_yield = reader.choice({"beris", "own"}) == "beris";
+    } else if (keyword == "yield_form") {
+      options.cross_yield = reader.choice({"additive", "cross"}) == "cross";
     } else if (keyword == "shear_lift") {
       options.shear_lift = reader.choice({"saffman_mei", "none"}) != "none";
     } else if (keyword == "rotational_lift") {
@@ -142,7 +145,7 @@ FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int a
     } else if (keyword == "sphericity") {
       read_sphericity(reader, options, atom_types);
     } else {
-      reader.unknown("rheology, density, drag, void_reynolds, power_law_factor, yield_weight, shear_lift, "
+      reader.unknown("rheology, density, drag, void_reynolds, power_law_factor, yield_weight, yield_form, shear_lift, "
                      "rotational_lift, drag_torque, oriented, strain_torque, pitching_torque, pressure_gradient, "
                      "viscous_stress, buoyancy, sphericity, screen, "
                      "screen_steps, screen_recheck");

@@ -18,6 +18,7 @@ struct FluidOptions {
   bool void_reynolds = false;    ///< alpha Re in place of Re in a single-particle drag law
   bool power_law_factor = false; ///< x = X(n) in the stress scale
   bool beris_yield = false;      ///< w by which a sphere rests where Beris et al. (1985) say
+  bool cross_yield = false;      ///< a cross term of viscous and yield stress
   bool shear_lift = false;
   bool rotational_lift = false;
   bool drag_torque = false;

@@ -27,8 +27,15 @@ inline double power_law_factor(double n) {
   return std::pow(6.0, 0.5 * (n - 1.0)) * std::pow(3.0 / (n * n + n + 1.0), n + 1.0);
 }
 
-/// Herschel-Bulkley parameters: tau = yield_stress + consistency * rate^index. SI. The last two weigh the terms of the
-/// stress scale around a particle, see HerschelBulkleyStress.
+/// c of the drag of a creeping sphere C_s = X(n) + Bn/(6 * 0.143) + c sqrt(Bn), C_s = F/(3 pi k (U/d)^n d^2), Bn =
+/// (tau0/k)(d/U)^n: fitted to the drag computed for 0.1 <= Bn <= 100, 0.4 <= n <= 1 (docs/creeping-drag.md), which it
+/// meets within 6 %.
+inline double cross_coefficient(double n) {
+  return 1.76 * std::pow(n, 1.63);
+}
+
+/// Herschel-Bulkley parameters: tau = yield_stress + consistency * rate^index. SI. The last three weigh the terms of
+/// the stress scale around a particle, see HerschelBulkleyStress and CrossStress.
 struct Rheology {
   double yield_stress = 0.0; ///< tau0 [Pa], >= 0
   double consistency = 0.0;  ///< k [Pa s^n], > 0; the viscosity where index is 1
@@ -36,8 +43,10 @@ struct Rheology {
   double density = 0.0;      ///< rho_f [kg/m3], > 0
   double viscous_weight = 1.0;
   double yield_weight = kAnsleySmith;
+  double cross_weight = 0.0;
 
   bool newtonian() const { return yield_stress == 0.0 && index == 1.0; }
+  bool crossed() const { return yield_stress > 0.0 && cross_weight > 0.0; }
 };
 
 /// A function of one speed and its derivative.
@@ -66,6 +75,26 @@ struct HerschelBulkleyStress {
   }
 };
 
+/// The same with a third term: X = x k rate^n + w tau0 + c sqrt(k rate^n tau0), the layer of sheared fluid at a body in
+/// mud that hardly yields. Both limits of the sum of two terms remain.
+struct CrossStress {
+  double yield;      ///< w tau0 [Pa]
+  double viscous;    ///< x k [Pa s^n]
+  double cross;      ///< c sqrt(k tau0) [Pa s^(n/2)]
+  double half_index; ///< n/2 [-]
+
+  explicit CrossStress(const Rheology& fluid)
+      : yield(fluid.yield_weight * fluid.yield_stress), viscous(fluid.viscous_weight * fluid.consistency),
+        cross(fluid.cross_weight * std::sqrt(fluid.consistency * fluid.yield_stress)), half_index(0.5 * fluid.index) {}
+
+  double at_rest() const { return yield; }
+  ValueAndSlope operator()(double speed, double inverse_length) const {
+    const double root = std::pow(speed * inverse_length, half_index);
+    const double first = viscous * root * root, second = cross * root;
+    return {yield + first + second, half_index * (2.0 * first + second) / speed};
+  }
+};
+
 /// The same for tau0 = 0, n = 1: no power to evaluate.
 struct NewtonianStress {
   double viscosity; ///< [Pa s]
@@ -79,6 +108,22 @@ struct NewtonianStress {
   }
 };
 
+/// Calls `with` with the stress scale of this fluid, of the type that costs least.
+template <class With> auto with_stress(const Rheology& fluid, With&& with) {
+  if (fluid.newtonian())
+    return with(NewtonianStress(fluid));
+  if (fluid.crossed())
+    return with(CrossStress(fluid));
+  return with(HerschelBulkleyStress(fluid));
+}
+
+/// X at this slip speed > 0 around a particle of this diameter [Pa].
+inline double stress_scale(const Rheology& f, double speed, double diameter) {
+  if (f.crossed())
+    return CrossStress(f)(speed, 1.0 / diameter).value;
+  return HerschelBulkleyStress(f)(speed, 1.0 / diameter).value;
+}
+
 /// Re_PL = rho U^(2-n) d^n / k.
 inline double reynolds_power_law(const Rheology& f, double speed, double diameter) {
   return f.density * std::pow(speed, 2.0 - f.index) * std::pow(diameter, f.index) / f.consistency;
@@ -89,16 +134,16 @@ inline double bingham(const Rheology& f, double speed, double diameter) {
   return f.yield_stress / f.consistency * std::pow(diameter / speed, f.index);
 }
 
-/// Re_HB of eq (23) = Re_PL / (x + w Bi), written without division by zero; 0 at rest.
+/// Re_HB of eq (23) = Re_PL / (x + w Bi + c sqrt(Bi)), written without division by zero; 0 at rest.
 inline double reynolds_herschel_bulkley(const Rheology& f, double speed, double diameter) {
   if (!(speed > 0.0))
     return 0.0;
-  return f.density * speed * speed / HerschelBulkleyStress(f)(speed, 1.0 / diameter).value;
+  return f.density * speed * speed / stress_scale(f, speed, diameter);
 }
 
 /// Viscosity that a particle of this diameter meets at this slip speed: rho U d / Re_HB [Pa s]; speed > 0.
 inline double particle_viscosity(const Rheology& f, double speed, double diameter) {
-  return HerschelBulkleyStress(f)(speed, 1.0 / diameter).value * diameter / speed;
+  return stress_scale(f, speed, diameter) * diameter / speed;
 }
 
 } // namespace eccentra::closures
