@@ -281,8 +281,8 @@ TEST(Walls, BentSurfacesAreComparedPointByPoint) {
   expect_same(walls, {bend(16, 20, 0.05)});
   expect_refused(walls, {bend(16, 20, 0.06)}, {"mesh 'tube'", "lies up to", "patch 'bend'"});
   walls.meshes[0].moves = false;
-  for (auto& corners : walls.meshes[0].corners)
-    walls.meshes[0].velocities.push_back({Vector3{0.1, 0, 0}, Vector3{0.1, 0, 0}, Vector3{0.1, 0, 0}});
+  const Vector3 along{0.1, 0, 0};
+  walls.meshes[0].velocities.assign(walls.meshes[0].corners.size(), {along, along, along});
   expect_refused(walls, {bend(16, 20, 0.05)}, {"mesh 'tube'", "moves at", "(0 0 0) m/s"});
 }
 

@@ -101,8 +101,9 @@ TEST(SmoothScene, ElasticImpactsKeepEnergy) {
       session.command("run 15000 post no");
       const double apart =
           (Eigen::Map<Vector3d>(session.atom().x[0]) - Eigen::Map<Vector3d>(session.atom().x[1])).norm();
-      if (apart > 2 * body.bounding_radius())
+      if (apart > 2 * body.bounding_radius()) {
         EXPECT_NEAR(kinetic_energy(session) / before, 1, 2e-6) << line;
+      }
       EXPECT_FALSE(std::isnan(apart));
     }
 }
