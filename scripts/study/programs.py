@@ -22,8 +22,8 @@ OPENFOAM = "/usr/share/openfoam"  # of Debian's package, where WM_PROJECT_DIR na
 HOSTS = ("liggghts", "libopenfoam", "libopenmpi3", "lammps", "yade")  # Debian packages whose code takes part in results
 
 
-# Of a build folder, or of the prefix of an installation, which has others' programs beside.
-OURS = ("bin/annulus*", "bin/clusterShape", "bin/eccentra*", "lib/libeccentra*", "lib/*/libeccentra*")
+# What computes, in a build folder, and in the prefix of an installation, which has others' programs beside.
+OURS = ("bin/annulus*", "bin/clusterShape", "bin/dragLaw", "bin/eccentra*", "lib/libeccentra*", "lib/*/libeccentra*") if INSTALLED else ("bin/*", "lib/*")
 
 
 def version():

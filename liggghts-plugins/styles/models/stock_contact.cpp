@@ -187,7 +187,9 @@ void StockContact::choose(const StockModelNames& names, const std::vector<std::s
   for (std::string& word : words)
     arg.push_back(word.data());
   if (!settings.parseArguments(static_cast<int>(arg.size()), arg.data()))
-    throw std::invalid_argument(settings.error_message);
+    throw std::invalid_argument(
+        settings.error_message + "; known are the words of this style's page and the options of model " + names.normal +
+        ", tangential " + names.tangential + ", rolling_friction " + names.rolling + " and cohesion " + names.cohesion);
   m.each([&](auto& model) { model.postSettings(&m.history, &m.around); });
   m.scratch.resize(m.history.size + 1);
   shear_ = m.history.shear;
