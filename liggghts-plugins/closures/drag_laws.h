@@ -285,8 +285,8 @@ struct Qkqy {
 };
 
 /// Whether a law's Reynolds number is that of the superficial slip alpha U.
-template <class Law, class = void> constexpr bool kSuperficial = false;
-template <class Law> constexpr bool kSuperficial<Law, std::enable_if_t<Law::kSuperficial>> = true;
+template <class Law, class = void> inline constexpr bool kSuperficial = false;
+template <class Law> inline constexpr bool kSuperficial<Law, std::enable_if_t<Law::kSuperficial>> = true;
 
 /// A law of this shape, in this fluid if the law depends on it.
 template <class Law> Law make_law(const ShapeFactors& shape, [[maybe_unused]] const Rheology& fluid) {

@@ -222,10 +222,10 @@ Resistance solve(const std::vector<Panel>& panels, const MirrorPlanes& mirrors, 
   for (int k = 0; k < 3; ++k) {
     r.translation.col(k) = loads[std::size_t(k)].force / (3 * M_PI * d);
     r.coupling.col(k) = loads[std::size_t(k)].torque / (M_PI * d * d);
-    r.rotation.col(k) = loads[std::size_t(3 + k)].torque / (M_PI * d * d * d);
+    r.rotation.col(k) = loads[3 + std::size_t(k)].torque / (M_PI * d * d * d);
   }
   for (int k = 0; k < 6; ++k)
-    r.strain.col(k) = loads[std::size_t(6 + k)].torque / (M_PI * d * d * d);
+    r.strain.col(k) = loads[6 + std::size_t(k)].torque / (M_PI * d * d * d);
   r.translation = (0.5 * (r.translation + r.translation.transpose())).eval();
   r.rotation = (0.5 * (r.rotation + r.rotation.transpose())).eval();
   return r;

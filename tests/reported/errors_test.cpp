@@ -85,7 +85,10 @@ TEST(Reported, errors_end_with_the_sentence) {
        "create_atoms 1 single 0.5 0.5 0.5 units box\nset group all type 7",
        {"Invalid value in set"},
        0},
-      {"ours", "fix a all fluid/couple link nowhere every 2", {"fix fluid/couple 'a'", "nowhere", "solver or socket"}, 1},
+      {"ours",
+       "fix a all fluid/couple link nowhere every 2",
+       {"fix fluid/couple 'a'", "nowhere", "solver or socket"},
+       1},
       {"ours, of a fluid side that never comes",
        "fix a all fluid/couple link solver every 2\nfix move all nve/sphere\nfix b all fluid/force rheology "
        "herschel_bulkley 0 0.01 1 density 1000 drag chien\nrun 2",
