@@ -22,6 +22,11 @@ struct Tables {
   bool symbolic = false;
 };
 
+/// What lies at an address of this process, which the loader gives as a number.
+template <class Type> const Type* pointer_to(ElfW(Addr) address) {
+  return reinterpret_cast<const Type*>(address); // NOLINT(performance-no-int-to-ptr)
+}
+
 Tables tables_of(const ElfW(Dyn) * entry, ElfW(Addr) base) {
   Tables tables;
   // glibc has relocated these addresses; a loader that has not leaves offsets.
@@ -29,19 +34,19 @@ Tables tables_of(const ElfW(Dyn) * entry, ElfW(Addr) base) {
   for (; entry->d_tag != DT_NULL; ++entry)
     switch (entry->d_tag) {
     case DT_STRTAB:
-      tables.names = reinterpret_cast<const char*>(at(entry->d_un.d_ptr));
+      tables.names = pointer_to<char>(at(entry->d_un.d_ptr));
       break;
     case DT_SYMTAB:
-      tables.symbols = reinterpret_cast<const ElfW(Sym)*>(at(entry->d_un.d_ptr));
+      tables.symbols = pointer_to<ElfW(Sym)>(at(entry->d_un.d_ptr));
       break;
     case DT_JMPREL:
-      tables.calls = reinterpret_cast<const ElfW(Rela)*>(at(entry->d_un.d_ptr));
+      tables.calls = pointer_to<ElfW(Rela)>(at(entry->d_un.d_ptr));
       break;
     case DT_PLTRELSZ:
       tables.calls_size = entry->d_un.d_val / sizeof(ElfW(Rela));
       break;
     case DT_RELA:
-      tables.data = reinterpret_cast<const ElfW(Rela)*>(at(entry->d_un.d_ptr));
+      tables.data = pointer_to<ElfW(Rela)>(at(entry->d_un.d_ptr));
       break;
     case DT_RELASZ:
       tables.data_size = entry->d_un.d_val / sizeof(ElfW(Rela));
@@ -75,7 +80,7 @@ int find_library(dl_phdr_info* info, std::size_t /*size*/, void* search) {
     return 0;
   const auto* dynamic = std::find_if(first, last, [](const ElfW(Phdr) & part) { return part.p_type == PT_DYNAMIC; });
   if (dynamic != last)
-    found.tables = tables_of(reinterpret_cast<const ElfW(Dyn)*>(info->dlpi_addr + dynamic->p_vaddr), info->dlpi_addr);
+    found.tables = tables_of(pointer_to<ElfW(Dyn)>(info->dlpi_addr + dynamic->p_vaddr), info->dlpi_addr);
   return 1;
 }
 

@@ -202,8 +202,9 @@ double FixClusterHistory::memory_usage() {
   double bytes = static_cast<double>(touches_.capacity() * sizeof(decltype(touches_)::value_type));
   for (const auto& list : touches_)
     bytes += static_cast<double>(list.capacity() * sizeof(Touch));
+  bytes += static_cast<double>(more_.capacity() * sizeof(decltype(more_)::value_type));
   for (const auto& list : more_)
-    bytes += static_cast<double>(sizeof(list) + list.capacity() * sizeof(double));
+    bytes += static_cast<double>(list.capacity() * sizeof(double));
   return bytes;
 }
 
