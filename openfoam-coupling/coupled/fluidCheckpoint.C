@@ -4,6 +4,7 @@
 #include "coupled/fluidCheckpoint.H"
 
 #include "coupled/fieldsOfParts.H"
+#include "support/halfWritten.H"
 
 #include "link/checkpoint/checkpoint_choice.h"
 #include "link/checkpoint/checkpoint_room.h"
@@ -113,28 +114,29 @@ volScalarField cellValues(const word& name, const fvMesh& mesh) {
                         mesh, dimensionedScalar(dimless, Zero), zeroGradientFvPatchScalarField::typeName);
 }
 
-/// Calls visit(field, name in the checkpoint) for all that averagedFlow keeps from one step to the next.
+/// Calls visit(field, name in the checkpoint) for all that averagedFlow keeps from one step to the next. The names are
+/// none of OpenFOAM's: where U is read from a checkpoint, OpenFOAM would look for U_0 in the folder of that time.
 template <class Visit> void forFields(averagedFlow& flow, bool pending, Visit&& visit) {
   const fvMesh& mesh = flow.mesh();
   auto& U = mesh.lookupObjectRef<volVectorField>("U");
   auto& alpha = mesh.lookupObjectRef<volScalarField>("alpha");
   auto& phi = mesh.lookupObjectRef<surfaceScalarField>("phi");
   // The present level first: replacing it may push an older one back.
-  visit(U, "U");
-  visit(U.oldTime(), "Uold");
+  visit(U, "UNow");
+  visit(U.oldTime(), "UOld");
   // The limiter of an extrapolated velocity looks one level further back.
-  visit(U.oldTime().oldTime(), "UoldOld");
-  visit(alpha, "alpha");
+  visit(U.oldTime().oldTime(), "UOldOld");
+  visit(alpha, "alphaNow");
   visit(alpha.oldTime(), "alphaOld");
-  visit(phi, "phi");
+  visit(phi, "phiNow");
   visit(phi.oldTime(), "phiOld");
-  visit(mesh.lookupObjectRef<volScalarField>("p"), "p");
-  visit(mesh.lookupObjectRef<volVectorField>("withheldForce"), "withheldForce");
+  visit(mesh.lookupObjectRef<volScalarField>("p"), "pNow");
+  visit(mesh.lookupObjectRef<volVectorField>("withheldForce"), "withheldForceNow");
   if (mesh.foundObject<volScalarField>("driveResponse"))
-    visit(mesh.lookupObjectRef<volScalarField>("driveResponse"), "driveResponse");
+    visit(mesh.lookupObjectRef<volScalarField>("driveResponse"), "driveResponseNow");
   if (pending) {
-    visit(flow.particleForce(), "particleForce");
-    visit(flow.exchange(), "exchange");
+    visit(flow.particleForce(), "particleForceNow");
+    visit(flow.exchange(), "exchangeNow");
   }
 }
 
@@ -280,6 +282,8 @@ void begin(Time& time, bool again, std::int64_t step) {
   });
   if (!moved.empty())
     Info << moved.c_str() << endl;
+  if (again)
+    removeHalfWritten(std::string(time.path()));
   // All have looked before the first rank writes: one that is late would find what the first has just written.
   if (returnReduce(earlier.has_value(), andOp<bool>())) {
     const scalar usual = time.deltaTValue();

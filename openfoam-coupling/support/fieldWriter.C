@@ -3,10 +3,10 @@
 // OpenFOAM does not see what the disk refuses when a file is closed: the end of each file tells.
 #include "support/fieldWriter.H"
 
+#include "support/halfWritten.H"
 #include "support/inputError.H"
 
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <map>
 
@@ -38,23 +38,6 @@ std::vector<fs::path> changed(const fs::path& folder, const Written& before) {
     }
   }
   return files;
-}
-
-/// Every file that OpenFOAM writes ends with a line of stars between slashes. Compressed ones end otherwise.
-bool whole(const fs::path& path) {
-  if (path.extension() == ".gz") {
-    return true;
-  }
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  const std::streamoff size = file.tellg();
-  constexpr std::streamoff kTail = 16;
-  file.seekg(std::max<std::streamoff>(0, size - kTail));
-  std::string tail(std::size_t(std::min(size, kTail)), ' ');
-  file.read(tail.data(), std::streamsize(tail.size()));
-  while (!tail.empty() && std::isspace(static_cast<unsigned char>(tail.back()))) {
-    tail.pop_back();
-  }
-  return file && tail.size() >= 2 && tail.substr(tail.size() - 2) == "//";
 }
 
 void removeAll(const std::vector<fs::path>& files, const fs::path& folder) {
@@ -107,7 +90,7 @@ void fieldWriter::attempt() {
   }
   const std::vector<fs::path> files = changed(folder, before);
   for (const fs::path& file : files) {
-    if (problem.empty() && !whole(file)) {
+    if (problem.empty() && !wholeFile(file)) {
       problem = file.string() + " could not be written to its end";
     }
   }

@@ -9,6 +9,7 @@
 #include "support/arithmeticFault.H"
 #include "support/commonOptions.H"
 #include "support/fieldWriter.H"
+#include "support/halfWritten.H"
 #include "support/inputError.H"
 #include "support/openfoamFolder.H"
 #include "support/patientOutput.H"
@@ -26,6 +27,9 @@ namespace {
 void run(const argList& args) {
   if (!args.checkRootCase()) {
     throw inputError("no case in " + args.path() + ": give its folder with -case, or change into it");
+  }
+  if (args.found("resume")) {
+    removeHalfWritten(std::string(args.path()));
   }
   Time runTime(Time::controlDictName, args);
   checkCaseFiles(runTime);

@@ -8,6 +8,7 @@ if(ECCENTRA_OPENFOAM)
       adversary_2b_a_forgotten_resume adversary_2b_newer_checkpoints_are_kept adversary_5_another_mesh
       adversary_5_another_interval_or_step adversary_12_a_resumed_run_that_inserts
       adversary_12_a_resumed_run_that_inserts_on_two_ranks resume_any_script_goes_on_from_any_signal
+      resume_beside_fields_that_a_kill_left_in_pieces
       adversary_14_standard_output_on_a_full_disk
       adversary_15_words_of_run adversary_17_names_of_folders adversary_4_comma_locale
       resume_over_the_socket_on_two_ranks

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 /// Rises with every change of what the files of either side hold or mean. 3: random numbers, and the fluid's mesh and
 /// steps.
-constexpr const char* kFirstLine = "eccentra checkpoint 3";
+constexpr const char* kFirstLine = "eccentra checkpoint 4";
 constexpr const char* kManifest = "manifest";
 /// Longest piece that zlib and write() take at once.
 constexpr std::size_t kPiece = std::size_t(1) << 30;
