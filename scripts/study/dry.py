@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Scenes of cases/rolling-comparison: how a level of detail is run in them."""
 import math
+import statistics
 
-from . import frames, programs, runs, timing
+from . import frames, measures, programs, runs, timing
 from .levels import shape_key
 from .programs import CASES, digest_of, run
 
@@ -22,9 +23,16 @@ def write_ring(path, inner=0.016, outer=0.03, parts=48):
         out.write("endsolid ring\n")
 
 
+def heap_slope(dumped, bodies):
+    """Angle of the cone through all bodies of the last frame, about their median place; and their residual speed."""
+    frame = dumped[-1]
+    x0, y0 = (statistics.median(body[k] for body in frame.values()) for k in (0, 1))
+    return measures.cone_angle([(math.hypot(b[0] - x0, b[1] - y0), b[2] - frames.RADIUS) for b in frame.values()]), frames.speed(frame)
+
+
 # name: (what, unit, measure, bodies, bodies with --quick); the first two are those of cases/rolling-comparison
 SCENES = {
-    "heap": ("slope of a heap", "degrees", frames.heap_angle, 220, 100),
+    "heap": ("slope of a heap", "degrees", heap_slope, 220, 100),
     "drum": ("angle of the bed in a drum at 30 rpm", "degrees", frames.drum_angle, 160, 110),
     "hopper": ("discharge of a hopper", "bodies/s", frames.discharge_rate, 260, 140),
 }
@@ -37,7 +45,7 @@ SEEDS = (15485863, 32452843, 49979687, 67867967, 86028121, 15485867, 32452867, 4
 
 def dry_job(build, scene, level, seed, bodies, step):
     """A run of a scene at a level of detail (levels.Level); the result: value, residual speed, bodies, time and its parts."""
-    clusters = level.kind == "cluster"
+    clusters = level.has_shape()
     variables = {"seed": seed, "bodies": bodies, "shape": level.shape, "clusters": int(clusters), "step": f"{step:.9g}",
                  "mu_r": 0, "mu_shape": level.mu, "rolling": "off", "words": "tangential_damping on",
                  "wall_words": "tangential_damping on"}

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Levels of detail of a body against the finest one: deviation beside time, in dry scenes and in the annulus."""
+"""Levels of detail of a body against the one with true faces: deviation beside time, in dry scenes and in the annulus."""
 import dataclasses
 import math
 import statistics
 
-from . import charts, dry, levels, measures, runs, section, tables, timing
+from . import charts, convergence, dry, levels, measures, power, runs, section, tables, timing, truth_chart
 
 PERCENT = 5.0  # the accuracy that the plain words ask for
 # What a point of the annulus is judged by: solids move at 0 and 40 degrees and form a bed at rest at 80.
@@ -13,7 +13,7 @@ JUDGED_BY = {0: "flux", 40: "flux", 80: "height"}
 SECTION_RESULTS = {"flux": ("solids flux at 5 %", "1e-6 m3/s", 1e6), "height": ("height of the solids' centre", "mm", 1e3),
                    "gradient": ("pressure gradient", "Pa/m", 1.0)}
 CONCENTRATION = 0.05
-COLOUR = {"sphere": 7, "friction": 4, "eccentric": 3, "cluster": 0}  # of a kind of level, in charts.COLOURS
+COLOUR = truth_chart.COLOUR
 UNKNOWN_STEP = {"critical": math.nan, "contacts": 0}
 COLUMNS = {4: 2, 7: 4, 8: 4}  # of a chart with so many panels; else 3
 PARTS_SHOWN = ("drum", "section 80")
@@ -23,11 +23,13 @@ RESTITUTION_DRY, RESTITUTION_SECTION = 0.5, 0.9  # of the scenes
 
 @dataclasses.dataclass(frozen=True)
 class Size:
-    """How large a study is. section_levels: names, or mean and largest for the spheres with that mu_shape; empty: all.
+    """How large a study is. seeds: of each level in a dry scene, the pilot where most_seeds is larger; most_seeds: up to which seeds are added
+    until the errors are those of power.py. section_levels: names, or mean and largest for the spheres with that mu_shape; empty: all.
     length, cells, seconds (by inclination) and points (inclination, velocity) are those of the annulus."""
     bodies: tuple
     few_bodies: bool
     seeds: int
+    most_seeds: int
     seeds_beside: int  # at most, at other velocities than CENTRAL_VELOCITY
     length: float
     cells: str
@@ -42,7 +44,8 @@ def short(name):
 
 
 def names_of(build, body):
-    return [level.name for level in levels.levels_of(body, levels.eccentricities(build, body), "")]
+    return [level.name for level in levels.levels_of(body, levels.eccentricities(build, body), "")
+            + [levels.smooth(body, rounding) for rounding in levels.OTHER_ROUNDINGS[body]]]
 
 
 @dataclasses.dataclass
@@ -59,6 +62,7 @@ class Row:
     failed: str = ""
     deviation: float = math.nan
     deviation_error: float = math.nan
+    values: dict = dataclasses.field(default_factory=dict)  # by seed
 
     def unsure(self):
         """The deviation as it can be told: not less than its standard error."""
@@ -78,16 +82,30 @@ class Group:
     central: bool = True  # stands in the first chart
 
     def compare(self):
+        """Deviations, by pairs of runs that one seed gave; of fewer than two pairs, by the errors of both means."""
         reference = self.rows[-1]
         for row in self.rows[:-1]:
-            row.deviation, row.deviation_error = measures.deviation(row.value, row.error, reference.value, reference.error)
+            pairs = [(value, reference.values[seed]) for seed, value in row.values.items() if seed in reference.values]
+            if len(pairs) > 1:
+                row.deviation, row.deviation_error = measures.paired_deviation(pairs)
+            else:
+                row.deviation, row.deviation_error = measures.deviation(row.value, row.error, reference.value, reference.error)
+
+    def ladder(self):
+        """The clusters of the body as (N, deviation, standard error), for convergence.py; what is named by C or D is of its form."""
+        return [(row.level.spheres, row.deviation, row.deviation_error) for row in self.candidates()
+                if row.level.kind == "cluster" and row.level.name[0] in "CD"]
 
     def candidates(self):
         return [row for row in self.rows[:-1] if not math.isnan(row.deviation) and row.unsure() > 0]
 
+    def models(self):
+        """Levels that may stand for the reference: a body with other corners is another body."""
+        return [row for row in self.candidates() if row.level.kind != "smooth"]
+
     def front(self):
         """Rows that no other row beats in time and deviation, and the knee among them (or None)."""
-        rows = self.candidates()
+        rows = self.models()
         points = [(row.cpu, row.unsure()) for row in rows]
         front = measures.pareto_front(points)
         bend = measures.knee([points[i] for i in front])
@@ -95,11 +113,10 @@ class Group:
 
     def plain_words(self):
         """One paragraph, from the numbers alone."""
-        reference, rows = self.rows[-1], self.candidates()
+        reference, rows = self.rows[-1], self.models()
         if math.isnan(reference.value) or not rows:
             ended = "failed" if any(row.failed for row in self.rows) else "were not run"
             return f"{self.title} ({self.body}): no comparison, because the reference or all other levels {ended}."
-        share = abs(reference.error / reference.value) * 100 if reference.value else math.nan
         text = [f"{self.title} ({self.body}): the reference {reference.level.name} gives {tables.number(reference.value)} +- "
                 f"{tables.number(reference.error, 2)} {self.unit} in {tables.number(reference.cpu)} s."]
         near = sorted((row for row in rows if abs(row.deviation) * 100 <= PERCENT), key=lambda row: row.cpu)
@@ -121,44 +138,35 @@ class Group:
         front, bend = self.front()
         if bend:
             text.append(f"The knee of the Pareto front is {bend.level.name}.")
-        if share > PERCENT:
-            text.append(f"The reference itself is known to {share:.0f} % only.")
-        return " ".join(text)
+        text += [power.reached(self.rows, reference), convergence.words_of(self.ladder())]
+        return " ".join(sentence for sentence in text if sentence)
 
     def panel(self):
-        front, bend = self.front()
-        reference = self.rows[-1]
-        series = [charts.Series("", [charts.Point(row.cpu, 100 * row.unsure()) for row in front], "#000000", True, False, True)]
-        for kind in COLOUR:
-            points = [charts.Point(row.cpu, 100 * row.unsure(), 100 * row.deviation_error, short(row.level.name), row is bend)
-                      for row in self.candidates() if row.level.kind == kind]
-            series.append(charts.Series("", points, charts.COLOURS[COLOUR[kind]]))
-        band = 100 * abs(reference.error / reference.value) if reference.value and not math.isnan(reference.error) else 0
-        return charts.Panel(f"{self.title}", f"CPU seconds of a run ({reference.level.name}: {tables.number(reference.cpu)})",
-                            f"deviation from {reference.level.name} [%]", series, True, True,
-                            (band, f"noise of {reference.level.name}") if band else (), False)
+        """Error against time, the reference at zero with its noise as a band."""
+        return truth_chart.signed(self.title, self.rows)
 
 
 class Study:
     """`retime`: the first run of each cell is repeated, for its times alone, after all that is to be run has been run; such times
     are preferred to those of the study wherever they are there."""
 
-    def __init__(self, store, build, size, bodies, scenes, names, seeds, output, retime=False):
-        self.retime = retime
+    def __init__(self, store, build, size, bodies, scenes, names, seeds, output, retime=False, rounding=None):
+        """seeds: of each level, or None for those of the size. rounding: of the reference, or None for that of the body."""
+        self.retime, self.rounding = retime, rounding
+        more = lambda number: {scene: min(len(dry.SEEDS), number * dry.MORE_SEEDS.get(scene, 1)) for scene in dry.SCENES}
+        self.pilot, self.most = more(seeds or size.seeds), more(seeds or size.most_seeds)
         self.store, self.build, self.size, self.output = store, build, size, output
-        self.bodies, self.scenes, self.names, self.seeds = bodies, scenes, names, seeds
+        self.bodies, self.scenes, self.names, self.seeds = bodies, scenes, names, seeds or size.seeds
         self.groups, self.failures = [], []
 
     def wanted(self, body):
         """Levels of a body in dry scenes, and those in the annulus; the reference last in both."""
-        fine = self.output / "disk80.clump"
-        levels.fine_disk(fine)
         estimates = levels.eccentricities(self.build, body)
-        everything = levels.levels_of(body, estimates, fine)
+        everything = levels.ladder_of(body, estimates, levels.fine_disks(self.output), self.rounding)
         chosen = [one for one in everything[:-1] if not self.names or one.name in self.names] + everything[-1:]
         names = {f"S1 mu {estimates[n]:.2f}" if n in estimates else n if not n.startswith("eccentric") else "S1 eccentric"
                  for n in self.size.section_levels}
-        return chosen, [one for one in chosen if not self.size.section_levels or one.name in names]
+        return chosen, [one for one in chosen if not self.size.section_levels or one.name in names or one is everything[-1]]
 
     def run(self):
         """Runs what is not there yet; returns what failed, as sentences."""
@@ -171,20 +179,17 @@ class Study:
             if "failed" in result:
                 return [f"the time step of {name}: {result['failed']}"]
         self.critical = {key: result if runs.good(result) else UNKNOWN_STEP for key, result in self.critical.items()}
-        jobs = {}
-        for body, (dry_levels, wet_levels) in plan.items():
-            for scene in dry.SCENES:
-                for level in self.with_step(dry_levels, RESTITUTION_DRY) if scene in self.scenes else ():
-                    for seed in dry.SEEDS[: self.seeds * dry.MORE_SEEDS.get(scene, 1)]:
-                        jobs[body, scene, level.name, seed] = self.dry(scene, level, seed)
-            for point in self.size.points if "section" in self.scenes else ():
+        jobs, results = {}, {}
+        for scene in (scene for scene in dry.SCENES if scene in self.scenes):
+            for body, (dry_levels, _) in plan.items():
+                self.run_scene(body, scene, self.with_step(dry_levels, RESTITUTION_DRY), jobs, results)
+        for point in self.size.points if "section" in self.scenes else ():
+            for body, (_, wet_levels) in plan.items():
                 for level in self.with_step(wet_levels, RESTITUTION_SECTION):
                     for seed in section.SEEDS[: self.seeds if point[1] == CENTRAL_VELOCITY else min(self.seeds, self.size.seeds_beside)]:
                         jobs[body, point, level.name, seed] = self.wet(body, point, level, seed)
-        results = {}
-        for place in dict.fromkeys(place for _, place, _, _ in jobs):  # one after the other: what is complete can be shown
-            title = place if place in dry.SCENES else f"annulus {place[0]} degrees, {place[1]} m/s"
-            results |= self.store.run_all(title, [job for (_, at, _, _), job in jobs.items() if at == place])
+            results |= self.store.run_all(f"annulus {point[0]} degrees, {point[1]} m/s",
+                                          [job for (_, at, _, _), job in jobs.items() if at == point])
         of = {key: results[job.key()] for key, job in jobs.items()}
         first = {}
         for (body, place, name, _), job in jobs.items():
@@ -203,6 +208,25 @@ class Study:
                                lambda r, q=quantity, s=scale: r["mean"][q][0] * s, RESTITUTION_SECTION, JUDGED_BY[point[0]] == quantity,
                                lambda r, q=quantity, s=scale: r["mean"][q][1] * s)
         return self.failures
+
+    def run_scene(self, body, scene, chosen, jobs, results):
+        """Runs the levels of a body in a dry scene: the pilot, then seeds until the errors are small enough, to the most allowed."""
+        most = self.most[scene]
+        wanted = dict.fromkeys((level.name for level in chosen), self.pilot[scene])
+        while chosen:
+            for level in chosen:
+                for seed in dry.SEEDS[: wanted[level.name]]:
+                    if (body, scene, level.name, seed) not in jobs:
+                        jobs[body, scene, level.name, seed] = self.dry(scene, level, seed)
+            of = {key: job for key, job in jobs.items() if key[:2] == (body, scene)}
+            found = self.store.run_all(f"{scene}, {body}", of.values())
+            results |= found
+            values = {name: {seed: result["value"] for (*_, at, seed), job in of.items() if at == name and runs.good(result := found[job.key()])}
+                      for name in wanted}
+            more = power.seeds_wanted(values, chosen[-1].name, most)
+            if all(more[name] <= wanted[name] for name in wanted):
+                return
+            wanted = {name: max(n, more[name]) for name, n in wanted.items()}
 
     def with_step(self, chosen, restitution):
         """Those whose time step is known: all, unless only kept results are shown."""
@@ -228,7 +252,8 @@ class Study:
         """`error_in_time` of a run's mean stands where there is one run alone."""
         rows = []
         for level in chosen:
-            every = [r for (b, p, name, _), r in results.items() if (b, p, name) == (body, place, level.name)]
+            by_seed = {seed: r for (b, p, name, seed), r in results.items() if (b, p, name) == (body, place, level.name)}
+            every = list(by_seed.values())
             good = [r for r in every if runs.good(r)]
             failed = next((r["failed"] for r in every if "failed" in r), "")
             if failed:
@@ -242,7 +267,8 @@ class Study:
             period = dry.FRAME if place in dry.SCENES else section.FLUID_STEP
             rows.append(Row(level, value, error, len(good), mean(lambda r: r["cpu"]), mean(lambda r: r["wall"]),
                             {part: mean(lambda r, part=part: r["parts"][part]) for part in timing.PARTS},
-                            levels.dividing_step(period, critical["critical"])[0] if self.with_step([level], restitution) else math.nan, critical, failed))
+                            levels.dividing_step(period, critical["critical"])[0] if self.with_step([level], restitution) else math.nan, critical, failed,
+                            values={seed: value_of(r) for seed, r in by_seed.items() if runs.good(r)}))
         group = Group(scene, body, title, unit, rows, judged, place in dry.SCENES or place[1] == CENTRAL_VELOCITY)
         group.compare()
         self.groups.append(group)
@@ -283,13 +309,17 @@ class Study:
         first = []
         for body in self.bodies:
             shown = [group for group in self.groups if group.body == body and group.judged and group.candidates()]
+            if shown:
+                page.append(f"Error against time over all scenes: `truth-{body}.svg`.\n")
+                charts.write(self.output / f"truth-{body}.svg", f"What accuracy costs: a {body} with true faces, and what stands for it",
+                             [truth_chart.overall([group.rows for group in shown if group.central] or [group.rows for group in shown])], 1, (6.4, 4.2))
             central = [group for group in shown if group.central]
             panels = ([self.overall(central)] if len(central) > 1 else []) + [group.panel() for group in central]
             beside = [group.panel() for group in shown if not group.central]
             what = f"What a level of detail of the {body} costs and what it gets wrong"
             for name, chosen, more in ((f"levels-{body}", panels, ""), (f"levels-{body}-faster", beside, ", faster flow")):
                 if chosen:
-                    charts.write(self.output / f"{name}.svg", f"{what}{more} (dashed: Pareto front; ring: its knee)", chosen,
+                    charts.write(self.output / f"{name}.svg", f"{what}{more}", chosen,
                                  COLUMNS.get(len(chosen), 3))
                     first += [f"![levels of the {body}{more}]({name}.svg)\n"]
             if len(central) > 1:
@@ -371,7 +401,7 @@ class Study:
         for body in self.bodies:
             judged = [group for group in self.groups if group.body == body and group.judged]
             if judged:
-                page.append(f"Deviation from the finest {body} with its standard error (over the seeds; of one run: in time), CPU seconds of a run, "
+                page.append(f"Deviation from the {body} with true faces with its standard error (over the seeds; of one run: in time), CPU seconds of a run, "
                             "and the number of runs (seeds):\n")
             dry_ones = [group for group in judged if group.scene in dry.SCENES]
             for groups in (dry_ones, [group for group in judged if group not in dry_ones]):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Levels of detail at which a body can be modelled, from the plain sphere to clusters finer than the paper's."""
+"""Levels of detail at which a body can be modelled, from the plain sphere over clusters to the body with true faces."""
 import dataclasses
 import json
 import math
@@ -15,27 +15,49 @@ SAFETY = 0.3  # of the critical time step, the default of fix timestep/limit
 DISK_RATIO = 0.4476  # radius over that of the outer ring, as in disk 48 (docs/shapes.md)
 # The most detailed cluster of the paper, whose eccentricity gives mu_shape.
 PAPER_REFERENCE = {"cube": "cube 64", "disk": "disk 48"}
+CUBES = (8, 27, 64, 125, 216, 512)
+DISKS = (7, 19, 48)  # built in
+RINGS = {80: 4, 120: 5, 224: 7}  # of finer disks
+# The body with true faces. Rounding, radius of the corners over half the smallest outer extent, is Wadell's roundness: 0.12 to 0.17 is "very
+# angular" in Powers' classes (1953), which grains fresh from a cut are. The disk's is the smallest whose radius bears the impacts as the cube's does.
+ROUNDING = {"cube": 0.15, "disk": 0.3}
+OTHER_ROUNDINGS = {"cube": (0.5, 0.3), "disk": (1.0, 0.6)}  # that show what the choice of the rounding does
+MIN_ROUNDING, MAX_ROUNDING = 0.01, 1.0  # that `shape smooth` takes
+DISK_ASPECT = DISK_RATIO / (1 + DISK_RATIO)  # thickness over diameter of disk 48 and of all finer disks
+SMOOTH_COST = 30  # spheres of the cluster that costs as much, for the time left alone
 
 
 @dataclasses.dataclass(frozen=True)
 class Level:
-    """kind: sphere, friction (sphere with mu_shape), eccentric (sphere that cogs) or cluster; shape: words of a shape."""
+    """kind: sphere, friction (sphere with mu_shape), eccentric (sphere that cogs), cluster or smooth; shape: words of a shape."""
     name: str
     kind: str
     shape: str = "sphere 1"
     mu: float = 0.0
     spheres: int = 1
 
+    def has_shape(self):
+        """Whether the particle itself has the shape, and is no sphere that stands for it."""
+        return self.kind in ("cluster", "smooth")
 
-def fine_disk(path):
-    """A disk like disk 48 with one ring more, 80 spheres: rings of 8, 16, 24 and 32, radius over outer ring as there."""
+
+def fine_disk(path, rings=4):
+    """A disk like disk 48 with more rings: 8 k spheres in ring k, 4 n (n + 1) in all, radius over outer ring as there. So its rim and its
+    thickness are those of disk 48, and its faces have lower bumps."""
     part = path.with_name(f"{path.name}.{os.getpid()}")  # another call may read the file now
     with open(part, "w") as out:
-        for ring in range(1, 5):
+        for ring in range(1, rings + 1):
             for k in range(8 * ring):
                 angle = 2 * math.pi * k / (8 * ring)
-                out.write(f"{ring / 4 * math.cos(angle):.9f} {ring / 4 * math.sin(angle):.9f} 0 {DISK_RATIO}\n")
+                out.write(f"{ring / rings * math.cos(angle):.9f} {ring / rings * math.sin(angle):.9f} 0 {DISK_RATIO}\n")
     part.replace(path)
+
+
+def fine_disks(folder):
+    """Writes all finer disks; the path of the first, as levels_of takes it."""
+    for spheres, rings in RINGS.items():
+        fine_disk(folder / f"disk{spheres}.clump", rings)
+    return folder / "disk80.clump"
 
 
 def measured(build, shape, *words):
@@ -51,22 +73,36 @@ def eccentricities(build, body):
 
 
 def levels_of(body, estimates, fine_file):
-    """All levels of a body from the cheapest; the last is the reference. fine_file: where fine_disk was written."""
+    """Spheres and clusters of a body from the cheapest. fine_file: a finer disk in the folder where fine_disks wrote them."""
     spheres = [Level("S1", "sphere")]
     spheres += [Level(f"S1 mu {mu:.2f}", "friction", mu=round(mu, 4)) for mu in estimates.values()]
     spheres.append(Level("S1 eccentric", "eccentric", PAPER_REFERENCE[body]))
     cluster = lambda name, shape: Level(name, "cluster", shape, spheres=int(re.search(r"\d+", name).group()))
     if body == "cube":
-        clusters = [cluster(f"C{n}", f"cube {n}") for n in (8, 27, 64, 125)]
+        clusters = [cluster(f"C{n}", f"cube {n}") for n in CUBES]
     else:
-        clusters = [cluster(f"D{n}", f"disk {n}") for n in (7, 19, 48)] + [cluster("D80", f"file {fine_file}")]
+        clusters = [cluster(f"D{n}", f"disk {n}") for n in DISKS]
+        clusters += [cluster(f"D{n}", f"file {pathlib.Path(fine_file).with_name(f'disk{n}.clump') if fine_file else ''}") for n in RINGS]
     return spheres + [cluster("S6", "sphere 6")] + clusters
+
+
+def smooth(body, rounding):
+    """The body with true faces; equal diameter, so equal volume and mass as its clusters."""
+    form = "cube" if body == "cube" else f"disk aspect {DISK_ASPECT:.4f}"
+    return Level(f"smooth {rounding:g}", "smooth", f"smooth {form} rounding {rounding:g}", spheres=SMOOTH_COST)
+
+
+def ladder_of(body, estimates, fine_file, rounding=None):
+    """All levels of a body: spheres, clusters, smooth bodies of other roundings, and last the reference, smooth with `rounding`."""
+    wanted = rounding or ROUNDING[body]
+    others = [smooth(body, other) for other in OTHER_ROUNDINGS[body] if other != wanted]
+    return levels_of(body, estimates, fine_file) + others + [smooth(body, wanted)]
 
 
 def step_job(build, level, restitution):
     """The critical time step of a level: the smallest that fix timestep/limit meets while bodies fall and come to rest."""
     scene = CASES / "accuracy-cost" / "in.step"
-    clusters = level.kind == "cluster"
+    clusters = level.has_shape()
     shape = level.shape if clusters else "sphere 1"
     inputs = {"what": "step", "scene": digest_of(scene), "shape": shape_key(shape), "restitution": restitution}
 

@@ -24,6 +24,49 @@ def deviation(value, error, reference, reference_error):
     return value / reference - 1, math.hypot(own / reference, value * other / reference**2)
 
 
+def paired_deviation(pairs):
+    """sum(value)/sum(reference) - 1 over pairs (value, reference) that one seed gives, and its standard error by the estimator of a ratio:
+    of value_i - ratio * reference_i. What a seed does to both leaves the error. nan without pairs or with a reference of zero; the error
+    is nan for one pair."""
+    total = sum(reference for _, reference in pairs)
+    if not pairs or not total:
+        return math.nan, math.nan
+    ratio = sum(value for value, _ in pairs) / total
+    if len(pairs) == 1:
+        return ratio - 1, math.nan
+    square = sum((value - ratio * reference) ** 2 for value, reference in pairs) / (len(pairs) - 1)
+    return ratio - 1, math.sqrt(square * len(pairs)) / abs(total)
+
+
+def runs_for(error, runs, wanted):
+    """How many runs bring a standard error that `runs` of them have down to `wanted`: it falls as 1/sqrt(runs). Not fewer than there are."""
+    if math.isnan(error) or not wanted > 0:
+        return runs
+    return max(runs, math.ceil(runs * (error / wanted) ** 2 * (1 - 1e-12)))
+
+
+def cone_angle(points):
+    """Slope of a heap [degrees] from all of it. points: (distance from the axis, height above the centres of the layer on the floor), one
+    for each body. A uniform cone of radius R holds the part 3 (r/R)^2 - 2 (r/R)^3 within r: R is fitted to all distances by least
+    squares, so that the far runners count once each and not by their distance. Its mean height is a quarter of its height."""
+    if len(points) < 3:
+        return math.nan
+    distances = sorted(r for r, _ in points)
+    number = len(distances)
+
+    def misfit(radius):
+        within = ((min(1.0, r / radius), (k + 0.5) / number) for k, r in enumerate(distances))
+        return sum((3 * x**2 - 2 * x**3 - part) ** 2 for x, part in within)
+
+    radii = [1.5 * statistics.fmean(distances) * 1.03**k for k in range(-40, 41)]  # the mean distance of a cone is R/2
+    best = min(range(len(radii)), key=lambda k: misfit(radii[k]))
+    low, high = radii[max(0, best - 1)], radii[min(len(radii) - 1, best + 1)]
+    for _ in range(30):
+        a, b = low + (high - low) / 3, high - (high - low) / 3
+        low, high = (low, b) if misfit(a) < misfit(b) else (a, high)
+    return math.degrees(math.atan(8 * max(0.0, statistics.fmean(h for _, h in points)) / (low + high)))
+
+
 def pareto_front(points):
     """Indices, by rising cost, of the points (cost, error) that no other point beats in one and equals in the other."""
     front, least = [], math.inf

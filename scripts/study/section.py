@@ -43,7 +43,7 @@ def run_case(build, folder, words, case="case", source=CASE):
 
 def level_words(level):
     """Options of the case's run for a level of detail."""
-    if level.kind == "cluster":
+    if level.has_shape():
         return {"shape": level.shape}
     if level.kind == "friction":
         return {"mu_shape": level.mu}

@@ -6,6 +6,8 @@ import inspect
 import math
 import os
 import pathlib
+import random
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -14,7 +16,8 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("ECCENTRA_BUILD", ROOT / "build"))
 sys.path.insert(0, str(ROOT / "scripts"))
-from study import charts, ladders, level_study, levels, loop_data, measures, runs, section, tables, timing, wedge  # noqa: E402
+from study import (charts, convergence, ladders, level_study, levels, loop_data, measures, power, runs, section, tables,  # noqa: E402
+                   timing, truth_chart, wedge)
 from study.commands import creeping_drag  # noqa: E402
 
 
@@ -51,6 +54,95 @@ class Measures(unittest.TestCase):
         self.assertAlmostEqual(error, math.hypot(0.05, 0.05) / 4)
         self.assertEqual(measures.crossing([(0, 0, 0), (1, 0.5, 0)], 1.0)[0], "above")
         self.assertEqual(measures.crossing([(0.1, 2, 0)], 1.0)[0], "below")
+
+    def test_pairs_take_out_what_a_seed_does_to_both(self):
+        noise = random.Random(5)
+        references = [noise.gauss(10, 2) for _ in range(40)]
+        # Twice the reference but for a little: the error is that of the rest, which both means alone do not know.
+        pairs = [(2 * r + noise.gauss(0, 0.1), r) for r in references]
+        off, error = measures.paired_deviation(pairs)
+        self.assertAlmostEqual(off, 1.0, delta=0.01)
+        self.assertAlmostEqual(error, 0.1 / 10 / math.sqrt(40), delta=0.0005)
+        value, reference = (measures.mean_and_error(list(side)) for side in zip(*pairs))
+        self.assertGreater(measures.deviation(*value, *reference)[1], 20 * error)
+        # Independent sides: the same as by the errors of both means.
+        pairs = [(noise.gauss(12, 1), noise.gauss(10, 1)) for _ in range(4000)]
+        value, reference = (measures.mean_and_error(list(side)) for side in zip(*pairs))
+        self.assertAlmostEqual(measures.paired_deviation(pairs)[1] / measures.deviation(*value, *reference)[1], 1, delta=0.05)
+        self.assertTrue(math.isnan(measures.paired_deviation([(1.0, 0.0)])[0]))
+
+    def test_runs_for_an_error(self):
+        self.assertEqual(measures.runs_for(0.06, 4, 0.03), 16)  # a standard error falls as 1/sqrt(n)
+        self.assertEqual(measures.runs_for(0.01, 4, 0.03), 4)
+        self.assertEqual(measures.runs_for(math.nan, 1, 0.03), 1)
+
+    def test_slope_of_a_cone(self):
+        chance = random.Random(2)
+        for degrees in (8, 30):
+            slope, points = math.tan(math.radians(degrees)), []
+            while len(points) < 1500:
+                r, h = math.sqrt(chance.random()), chance.random() * slope
+                if h < (1 - r) * slope:
+                    points.append((r, h))
+            self.assertAlmostEqual(measures.cone_angle(points) / degrees, 1, delta=0.04)  # mean height: 0.77/sqrt(1500) = 2 %
+            runners = points + [(20.0, 0.0)] * 15  # 1 %, twenty radii away: moments of the distances would halve the angle
+            self.assertAlmostEqual(measures.cone_angle(runners) / degrees, 1, delta=0.08)
+        self.assertEqual(measures.cone_angle([(0.1 * k, 0.0) for k in range(1, 50)]), 0.0)
+
+
+class Convergence(unittest.TestCase):
+    SPHERES = (8, 27, 64, 125, 216, 512)
+
+    def test_powers_are_found(self):
+        fit = convergence.fit([(n, -2 * n**-0.5, 0.01) for n in self.SPHERES])
+        self.assertAlmostEqual(fit.power, 0.5, places=6)
+        self.assertAlmostEqual(fit.factor, -2, places=5)
+        fit = convergence.fit([(n, 0.1 - 2 * n**-0.5, 0.01) for n in self.SPHERES], True)
+        self.assertAlmostEqual(fit.power, 0.5, places=6)
+        self.assertAlmostEqual(fit.rest, 0.1, places=5)
+        self.assertIsNone(convergence.fit([(8, 0.1, 0.01), (27, 0.05, 0.01)]))
+        self.assertIsNone(convergence.fit([(n, 0.1, math.nan) for n in self.SPHERES]))
+
+    def test_errors_are_those_of_the_noise(self):
+        chance, off, rest = random.Random(1), [], []
+        for _ in range(60):
+            points = [(n, chance.gauss(-2 * n**-0.4, 0.03), 0.03) for n in self.SPHERES]
+            fit, free = convergence.fit(points), convergence.fit(points, True)
+            off.append((fit.power - 0.4) / fit.power_error)
+            rest.append(free.rest / free.rest_error)
+        for scaled in (off, rest):  # 60 values of mean 0 and deviation 1, errors widened where chance fits badly
+            self.assertLess(abs(statistics.fmean(scaled)), 0.5)
+            self.assertGreater(statistics.stdev(scaled), 0.7)
+            self.assertLess(statistics.stdev(scaled), 1.3)
+
+    def test_words(self):
+        words = convergence.words_of([(n, -2 * n**-0.5, 0.01) for n in self.SPHERES])
+        self.assertIn("N^-p with p = 0.50 +- 0.01", words)
+        self.assertIn("no rest can be told from zero", words)
+        self.assertIn("more spheres do not remove it", convergence.words_of([(n, 0.3 + 2 * n**-1.0, 0.01) for n in self.SPHERES]))
+        self.assertIn("None differs from zero", convergence.words_of([(n, 0.01, 0.02) for n in self.SPHERES]))
+        self.assertEqual(convergence.words_of([(8, 0.1, 0.1)]), "")
+
+
+class Power(unittest.TestCase):
+    def test_seeds_bring_errors_down(self):
+        chance = random.Random(7)
+        drawn = lambda n: {"C8": {k: chance.gauss(8, 0.6) for k in range(n)}, "true": {k: chance.gauss(10, 1) for k in range(n)}}
+        for _ in range(5):
+            pilot = drawn(30)
+            wanted = power.seeds_wanted(pilot, "true", 1000, 0.01, 0.005)
+            self.assertEqual(wanted["true"], max(wanted.values()))  # pairs need the reference
+            more = drawn(wanted["true"])
+            mean, error = measures.mean_and_error(list(more["true"].values()))
+            self.assertLess(error / mean, 0.01 * 1.3)  # the pilot knows the spread to 13 %
+            self.assertLess(measures.paired_deviation([(more["C8"][k], more["true"][k]) for k in range(wanted["C8"])])[1], 0.005 * 1.3)
+            self.assertGreater(wanted["true"], 30)
+
+    def test_limits(self):
+        values = {"a": {1: 1.0, 2: 9.0}, "true": {1: 10.0, 2: 11.0}}
+        self.assertEqual(power.seeds_wanted(values, "true", 12), {"a": 12, "true": 12})
+        self.assertEqual(power.seeds_wanted({"a": {1: 3.0}, "true": {1: 3.0}}, "true", 12), {"a": 1, "true": 1})
+        self.assertEqual(power.seeds_wanted({"a": {1: 3.0, 2: 3.0}, "true": {1: 0.0, 2: 0.0}}, "true", 12), {"a": 2, "true": 2})
 
 
 class Ladders(unittest.TestCase):
@@ -135,6 +227,22 @@ class Levels(unittest.TestCase):
         self.assertEqual(len(rows), 80)
         self.assertAlmostEqual(max(math.hypot(x, y) for x, y, _, _ in rows), 1.0)
 
+    def test_ladders_end_at_the_true_body_of_equal_volume(self):
+        volume = {}
+        with tempfile.TemporaryDirectory() as folder:
+            fine = levels.fine_disks(pathlib.Path(folder))
+            for body in levels.ROUNDING:
+                for level in levels.ladder_of(body, {}, fine):
+                    if level.has_shape():
+                        volume[level.name] = levels.measured(BUILD, level.shape, "--diameter", "6.35e-3")["volume"]
+                self.assertEqual(level, levels.smooth(body, levels.ROUNDING[body]))
+        for finest in ("C512", "D224", "smooth 0.15", "smooth 0.3"):
+            self.assertIn(finest, volume)
+        for name, found in volume.items():
+            self.assertAlmostEqual(found / (math.pi * 6.35e-3**3 / 6), 1, delta=1e-6, msg=name)
+        self.assertEqual(levels.ladder_of("cube", {}, fine, 0.5)[-1].name, "smooth 0.5")
+        self.assertEqual(len({level.name for level in levels.ladder_of("cube", {}, fine, 0.5)}), len(levels.ladder_of("cube", {}, fine, 0.5)))
+
     def test_plain_words(self):
         row = lambda name, value, cpu: level_study.Row(levels.Level(name, "cluster"), value, 0.01, 3, cpu, cpu, {}, 1e-5, {})
         group = level_study.Group("scene", "cube", "slope", "degrees", [row("C8", 12.0, 1.0), row("C27", 10.2, 2.0), row("C64", 10.0, 8.0)], True)
@@ -142,6 +250,23 @@ class Levels(unittest.TestCase):
         words = group.plain_words()
         self.assertIn("Within 5 % of it, the cheapest is C27 (+2.0 +-", words)
         self.assertIn("it is 4.0 times as fast", words)
+
+
+class TruthChart(unittest.TestCase):
+    def rows(self, deviations):
+        row = lambda name, kind, cpu, off: level_study.Row(levels.Level(name, kind), 1.0, 0.02, 3, cpu, cpu, {}, 1e-5, {}, "", off, 0.01)
+        return [row(name, "cluster", cpu, off) for name, cpu, off in deviations] + [row("smooth 0.15", "smooth", 10.0, math.nan)]
+
+    def test_true_body_at_zero_and_what_is_far_off_at_the_edge(self):
+        panel = truth_chart.signed("a heap", self.rows([("C8", 1.0, -0.4), ("C27", 3.0, 1.8)]))
+        points = [point for series in panel.series for point in series.points]
+        self.assertEqual([(p.x, p.y) for p in points[:2]], [(1.0, -40.0), (3.0, 100.0)])
+        self.assertEqual((points[1].label, points[1].bound), ("C27 +180 %", 1))
+        self.assertEqual((panel.noise, panel.truth), (2.0, (10.0, "smooth 0.15")))
+        whole = truth_chart.overall([self.rows([("C8", 1.0, -0.4), ("C27", 3.0, 0.1)]), self.rows([("C8", 3.0, 0.2)])])
+        self.assertEqual([(round(p.x, 9), round(p.y, 9), p.label) for p in whole.series[0].points], [(0.2, 30.0, "C8")])
+        words, _ = Charts.drawn(self, panel, whole)
+        self.assertIn("smooth 0.15: the true body (band: its noise, +- 2.0 %)", words)
 
 
 class Overall(unittest.TestCase):
@@ -295,15 +420,17 @@ class Scripts(unittest.TestCase):
             self.assertEqual(first.returncode, 0, first.stderr + first.stdout)
             with open(pathlib.Path(folder) / "levels.csv", newline="") as rows:
                 table = {row["level"]: row for row in csv.DictReader(rows)}
-            self.assertEqual(list(table), ["S1", "C125"])
+            self.assertEqual(list(table), ["S1", "smooth 0.15"])  # the body with true faces is the reference
             for row in table.values():
                 parts = sum(float(row[f"{part}_s"]) for part in timing.PARTS)
                 self.assertAlmostEqual(parts / float(row["cpu_s"]), 1.0, places=6)
                 self.assertLessEqual(float(row["step_s"]), levels.SAFETY * float(row["critical_step_s"]) * (1 + 1e-9))
             # Frictionless in rolling, spheres spread over the floor; cubes stand.
             self.assertLess(float(table["S1"]["mean"]), 3.0)
-            self.assertGreater(float(table["C125"]["mean"]), 8.0)
-            self.assertIn("the reference C125 gives", (pathlib.Path(folder) / "results.md").read_text())
+            self.assertGreater(float(table["smooth 0.15"]["mean"]), 8.0)
+            self.assertAlmostEqual(float(table["S1"]["deviation"]), -1, delta=0.2)
+            self.assertTrue((pathlib.Path(folder) / "truth-cube.svg").is_file())
+            self.assertIn("the reference smooth 0.15 gives", (pathlib.Path(folder) / "results.md").read_text())
             again = run("accuracy-cost", *words)
             self.assertNotIn(" s of CPU |", again.stderr)  # nothing is repeated
             self.assertEqual(again.returncode, 0)
@@ -340,6 +467,7 @@ class Scripts(unittest.TestCase):
     def test_bad_words(self):
         for script, words, says in (
                 ("accuracy-cost", ["--seeds", "0"], "--seeds is 0: give 1 to 10"),
+                ("accuracy-cost", ["--rounding", "0"], "--rounding is 0.0: give 0.01 to 1"),
                 ("accuracy-cost", ["--levels", "C9"], "--levels names 'C9': there are"),
                 ("accuracy-cost", ["--build", "/nowhere"], "there is no /nowhere/bin/eccentra-dem: build it with"),
                 ("accuracy-cost", ["--scenes", "ocean"], "invalid choice: 'ocean'"),
