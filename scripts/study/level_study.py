@@ -14,6 +14,7 @@ SECTION_RESULTS = {"flux": ("solids flux at 5 %", "1e-6 m3/s", 1e6), "height": (
                    "gradient": ("pressure gradient", "Pa/m", 1.0)}
 CONCENTRATION = 0.05
 COLOUR = truth_chart.COLOUR
+NO_FORM = truth_chart.NO_FORM
 UNKNOWN_STEP = {"critical": math.nan, "contacts": 0}
 COLUMNS = {4: 2, 7: 4, 8: 4}  # of a chart with so many panels; else 3
 PARTS_SHOWN = ("drum", "section 80")
@@ -80,6 +81,7 @@ class Group:
     rows: list
     judged: bool
     central: bool = True  # stands in the first chart
+    percent: float = PERCENT  # the accuracy that the plain words ask for
 
     def compare(self):
         """Deviations, by pairs of runs that one seed gave; of fewer than two pairs, by the errors of both means."""
@@ -92,9 +94,9 @@ class Group:
                 row.deviation, row.deviation_error = measures.deviation(row.value, row.error, reference.value, reference.error)
 
     def ladder(self):
-        """The clusters of the body as (N, deviation, standard error), for convergence.py; what is named by C or D is of its form."""
+        """The clusters of the body as (N, deviation, standard error), for convergence.py."""
         return [(row.level.spheres, row.deviation, row.deviation_error) for row in self.candidates()
-                if row.level.kind == "cluster" and row.level.name[0] in "CD"]
+                if row.level.kind == "cluster" and row.level.name not in NO_FORM]
 
     def candidates(self):
         return [row for row in self.rows[:-1] if not math.isnan(row.deviation) and row.unsure() > 0]
@@ -118,19 +120,21 @@ class Group:
             ended = "failed" if any(row.failed for row in self.rows) else "were not run"
             return f"{self.title} ({self.body}): no comparison, because the reference or all other levels {ended}."
         text = [f"{self.title} ({self.body}): the reference {reference.level.name} gives {tables.number(reference.value)} +- "
-                f"{tables.number(reference.error, 2)} {self.unit} in {tables.number(reference.cpu)} s."]
-        near = sorted((row for row in rows if abs(row.deviation) * 100 <= PERCENT), key=lambda row: row.cpu)
+                f"{tables.number(reference.error, 2)}{f' {self.unit}' if self.unit else ''} in {tables.number(reference.cpu)} s."]
+        near = sorted((row for row in rows if abs(row.deviation) * 100 <= self.percent), key=lambda row: row.cpu)
         if near:
             best = near[0]
             ratio = reference.cpu / best.cpu
-            text.append(f"Within {PERCENT:g} % of it, the cheapest is {best.level.name} ({100 * best.deviation:+.1f} +- "
+            text.append(f"Within {self.percent:g} % of it, the cheapest is {best.level.name} ({100 * best.deviation:+.1f} +- "
                         f"{100 * best.deviation_error:.1f} %); it is {tables.number(ratio, 2)} times as fast.")
-            if best.deviation_error * 100 > PERCENT:
+            if best.deviation_error * 100 > self.percent:
                 text.append("The standard error is larger, so that more seeds are needed to be sure.")
         else:
             best = min(rows, key=lambda row: abs(row.deviation))
-            text.append(f"No other level is within {PERCENT:g} % of it; the nearest is {best.level.name} ({100 * best.deviation:+.1f} +- "
+            text.append(f"No other level is within {self.percent:g} % of it; the nearest is {best.level.name} ({100 * best.deviation:+.1f} +- "
                         f"{100 * best.deviation_error:.1f} %), at {tables.number(best.cpu / reference.cpu, 2)} of the time.")
+        if best.cpu >= reference.cpu:
+            text.append(f"{reference.level.name} costs no more than that: take it.")
         plain = next((row for row in rows if row.level.kind == "sphere"), None)
         if plain and plain is not best:
             ratio = tables.number(plain.cpu / reference.cpu, 2)
@@ -144,6 +148,17 @@ class Group:
     def panel(self):
         """Error against time, the reference at zero with its noise as a band."""
         return truth_chart.signed(self.title, self.rows)
+
+
+CSV_COLUMNS = ["scene", "body", "result", "unit", "level", "mean", "standard_error", "runs", "deviation", "deviation_error", "cpu_s",
+               "wall_s", *(f"{part}_s" for part in timing.PARTS), "step_s", "critical_step_s", "contacts_at_critical", "failed"]
+
+
+def csv_cells(group):
+    """Rows of levels.csv, which clusterShape advise reads: the last row of a scene is the reference."""
+    return [[group.scene, group.body, group.title, group.unit, row.level.name, row.value, row.error, row.runs, row.deviation, row.deviation_error,
+             row.cpu, row.wall, *(row.parts.get(part, math.nan) for part in timing.PARTS), row.step, row.critical.get("critical", math.nan),
+             row.critical.get("contacts", 0), row.failed] for row in group.rows]
 
 
 class Study:
@@ -287,10 +302,7 @@ class Study:
                           tables.text(header, table), words, ""]
                 if group.candidates() or any(row.failed for row in group.rows):
                     page += [f"- {words[0].upper()}{words[1:]}\n"]
-            for row in group.rows:
-                cells.append([group.scene, group.body, group.title, group.unit, row.level.name, row.value, row.error, row.runs, row.deviation,
-                              row.deviation_error, row.cpu, row.wall, *(row.parts[part] for part in timing.PARTS), row.step,
-                              row.critical["critical"], row.critical["contacts"], row.failed])
+            cells += csv_cells(group)
         steps = []
         for (name, restitution), result in sorted(self.critical.items(), key=lambda item: item[0][1]):
             if name.startswith("S1 ") or result is UNKNOWN_STEP:  # a sphere's step is that of S1
@@ -303,9 +315,7 @@ class Study:
         text = "\n".join(lines)
         (self.output / "levels.txt").write_text(text)
         print(text)
-        columns = ["scene", "body", "result", "unit", "level", "mean", "standard_error", "runs", "deviation", "deviation_error", "cpu_s",
-                   "wall_s", *(f"{part}_s" for part in timing.PARTS), "step_s", "critical_step_s", "contacts_at_critical", "failed"]
-        tables.write_csv(self.output / "levels.csv", columns, cells)
+        tables.write_csv(self.output / "levels.csv", CSV_COLUMNS, cells)
         first = []
         for body in self.bodies:
             shown = [group for group in self.groups if group.body == body and group.judged and group.candidates()]

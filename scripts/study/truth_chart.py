@@ -10,6 +10,7 @@ from . import charts
 COLOUR = {"sphere": 7, "friction": 4, "eccentric": 3, "cluster": 0, "smooth": 2}  # of a kind of level, in charts.COLOURS
 WORDS = {"sphere": "sphere", "friction": "sphere with mu_shape", "eccentric": "sphere that cogs", "cluster": "clusters of spheres",
          "smooth": "true faces, rounder corners"}
+NO_FORM = ("S6",)  # clusters that are no form of the body
 END = 100.0  # deviations beyond [%] stand at the edge, with an arrow and their value
 
 
@@ -27,8 +28,9 @@ class TruthPanel(charts.Panel):
         low, high = axes.get_ylim()
         axes.set_ylim(min(low, -0.04 * (high - low)), high)
         axes.plot([self.truth[0]], [0], marker="D", markersize=8, color=charts.COLOURS[COLOUR["smooth"]], linestyle="", clip_on=False, zorder=5)
-        axes.annotate(f"{self.truth[1]}: the true body" + (f" (band: its noise, +- {self.noise:.1f} %)" if self.noise else ""), (0.99, 0),
-                      (0, -2), axes.get_yaxis_transform(), "offset points", ha="right", va="top", fontsize=7, color="#006b4f")
+        noise = f"\nband: its noise, +- {self.noise:.1f} %" if self.noise else ""
+        axes.annotate(f"\u25c6 the true body, {self.truth[1]}{noise}", (1, 1), (-4, -4), "axes fraction", "offset points", ha="right", va="top",
+                      fontsize=7, color="#006b4f")
 
 
 def short(name):
@@ -43,12 +45,12 @@ def clipped(x, y, error, name):
 
 
 def _series(points):
-    """points: [(level, charts.Point)]: a series for each kind; clusters are joined, but those that are no form of the body (S6)."""
+    """points: [(level, charts.Point)]: a series for each kind; clusters of the body's form are joined."""
     made = []
     for kind in COLOUR:
         of = [(level, point) for level, point in points if level.kind == kind]
-        ladder = sorted(((level.spheres, point) for level, point in of if kind == "cluster" and level.name != "S6"), key=lambda at: at[0])
-        rest = [point for level, point in of if kind != "cluster" or level.name == "S6"]
+        ladder = sorted(((level.spheres, point) for level, point in of if kind == "cluster" and level.name not in NO_FORM), key=lambda at: at[0])
+        rest = [point for level, point in of if kind != "cluster" or level.name in NO_FORM]
         name = WORDS[kind]
         if ladder:
             made.append(charts.Series(name, [point for _, point in ladder], charts.COLOURS[COLOUR[kind]], True))

@@ -7,6 +7,7 @@ import math
 import os
 import pathlib
 import random
+import re
 import statistics
 import subprocess
 import sys
@@ -16,8 +17,8 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("ECCENTRA_BUILD", ROOT / "build"))
 sys.path.insert(0, str(ROOT / "scripts"))
-from study import (charts, convergence, ladders, level_study, levels, loop_data, measures, power, runs, section, tables,  # noqa: E402
-                   timing, truth_chart, wedge)
+from study import (charts, convergence, ladders, level_study, levels, loop_data, measures, power, programs, runs, section,  # noqa: E402
+                   shape_levels, tables, timing, truth_chart, user_scene, wedge)
 from study.commands import creeping_drag  # noqa: E402
 
 
@@ -266,7 +267,88 @@ class TruthChart(unittest.TestCase):
         whole = truth_chart.overall([self.rows([("C8", 1.0, -0.4), ("C27", 3.0, 0.1)]), self.rows([("C8", 3.0, 0.2)])])
         self.assertEqual([(round(p.x, 9), round(p.y, 9), p.label) for p in whole.series[0].points], [(0.2, 30.0, "C8")])
         words, _ = Charts.drawn(self, panel, whole)
-        self.assertIn("smooth 0.15: the true body (band: its noise, +- 2.0 %)", words)
+        self.assertTrue(any("the true body, smooth 0.15" in word for word in words), words)
+        self.assertTrue(any("its noise, +- 2.0 %" in word for word in words), words)
+
+
+def write_brick(path, a, b, c):
+    """A box as STL."""
+    corners = [(x * a, y * b, z * c) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    faces = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+    facet = lambda *of: "facet normal 0 0 0\nouter loop\n" + "".join("vertex {:g} {:g} {:g}\n".format(*corners[k]) for k in of) + "endloop\nendfacet\n"
+    path.write_text("solid brick\n" + "".join(facet(i, j, k) + facet(i, k, l) for i, j, k, l in faces) + "endsolid brick\n")
+
+
+class UserScene(unittest.TestCase):
+    """A shape and a script of the user."""
+    SCRIPT = ROOT / "cases" / "own-scene" / "in.collapse"
+    THERMO = ("Step Atoms x[1]\n 0 3 9\nLoop time of 1\n    Step    Atoms   x[1]   KinEng\n 1 3 0.25 1e-3\ninsertion: proc 0 at 0 %\n 2 3 0.5 1e-4\n"
+              "Loop time of 2 on 1 procs\n")
+
+    def test_the_last_table_of_thermo_output(self):
+        self.assertEqual(user_scene.column_of(self.THERMO, "f_x[1]"), [0.25, 0.5])
+        self.assertEqual(user_scene.column_of(self.THERMO, "KinEng"), [1e-3, 1e-4])
+        with self.assertRaisesRegex(runs.RunFailed, "'v_y' is no column of the last 'run'; expected one of Step, Atoms, "):
+            user_scene.column_of(self.THERMO, "v_y")
+        with self.assertRaisesRegex(runs.RunFailed, "prints no table"):
+            user_scene.column_of("nothing\n", "v_y")
+
+    def test_inputs_are_what_the_script_names_and_does_not_write(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "in.x").write_text("include part.in # and not.this\ndump d all custom 10 old.dump id\nfix r all mesh/surface &\n file ring.stl\n")
+            (folder / "part.in").write_text("read_data bodies.txt\n")
+            for name in ("not.this", "old.dump", "ring.stl", "bodies.txt"):
+                (folder / name).write_text("")
+            self.assertEqual([file.name for file in user_scene.files_of(folder / "in.x")], ["bodies.txt", "part.in", "ring.stl"])
+
+    def test_scripts_without_the_lines_are_refused(self):
+        text = self.SCRIPT.read_text()
+        with tempfile.TemporaryDirectory() as folder:
+            script = pathlib.Path(folder) / "in.x"
+            for change, measure, says in (
+                    (("variable        seed ", "variable        sed "), "v_height", "no line 'variable seed index ...'"),
+                    (("seed ${seed}", "seed 15485863"), "v_height", "the variable 'seed' is declared and not used"),
+                    (("1 ${mu_shape}", "1 0"), "v_height", "need 'variable mu_shape index 0'"),
+                    (("", ""), "v_depth", "'v_depth' is in no thermo_style of")):
+                script.write_text(text.replace(*change) if change[0] else text)
+                with self.assertRaisesRegex(programs.Failure, re.escape(says)):
+                    user_scene.read(script, measure, 0.5)
+            self.assertTrue(user_scene.read(self.SCRIPT, "v_height", 0.5).takes_friction())
+
+    def test_levels_of_a_stone(self):
+        with tempfile.TemporaryDirectory() as folder:
+            stone = pathlib.Path(folder) / "stone.stl"
+            write_brick(stone, 1, 1.5, 2)
+            ladder = shape_levels.read(BUILD, f"stl {stone}", ["sphere", "mu", "spheres 8 4", "hull"], 0.2)
+            self.assertEqual([level.name for level in ladder.levels][-1], "hull 0.2")
+            mu = ladder.facts["hull 0.2"]["mu_shape"]
+            self.assertEqual([(level.name, level.kind) for level in ladder.levels[:-1]],
+                             [("sphere", "sphere"), ("8 spheres", "cluster"), ("4 spheres", "cluster"), (f"mu {round(mu, 4):g}", "friction")])
+            self.assertIn("spheres 8", ladder.levels[1].shape)
+            without = shape_levels.read(BUILD, f"stl {stone}", ["spheres 4 8"])
+            self.assertEqual(without.levels[-1].name, "8 spheres")
+            self.assertIn("how far that one is off is not known", " ".join(without.remarks))
+
+    def test_a_stone_in_a_script(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            write_brick(folder / "stone.stl", 1, 1.5, 2)
+            words = ("--shape", f"stl {folder / 'stone.stl'}", "--levels", "sphere", "spheres 4", "hull", "--scene", self.SCRIPT, "--measure", "v_height",
+                     "--share", "0", "--seeds", "2", "--jobs", "1", "--out", folder / "answer")
+            said = run("accuracy-cost", *words)
+            self.assertEqual(said.returncode, 0, said.stderr + said.stdout)
+            with open(folder / "answer" / "levels.csv", newline="") as rows:
+                table = {row["level"]: row for row in csv.DictReader(rows)}
+            self.assertEqual(list(table), ["sphere", "4 spheres", "hull 0.15"])
+            # Without resistance to rolling all spheres end on the floor, the stones on each other.
+            self.assertAlmostEqual(float(table["sphere"]["mean"]) / 3.175e-3, 1, delta=0.1)
+            self.assertGreater(float(table["hull 0.15"]["mean"]), 1.1 * float(table["sphere"]["mean"]))
+            page = (folder / "answer" / "results.md").read_text()
+            self.assertIn("the reference hull 0.15 gives", page)
+            self.assertIn("What is not known: ", page)
+            self.assertTrue((folder / "answer" / "answer.svg").is_file())
+            self.assertNotIn(" s of CPU |", run("accuracy-cost", *words).stderr)  # nothing is repeated
 
 
 class Overall(unittest.TestCase):
@@ -467,6 +549,17 @@ class Scripts(unittest.TestCase):
     def test_bad_words(self):
         for script, words, says in (
                 ("accuracy-cost", ["--seeds", "0"], "--seeds is 0: give 1 to 10"),
+                ("accuracy-cost", ["--shape", "cube", "--quick"], "--quick belongs to the study of cubes and disks"),
+                ("accuracy-cost", ["--shape", "cube", "--scene", "in.x"], "--scene needs --measure: a column of the thermo output"),
+                ("accuracy-cost", ["--shape", "cube", "--scene", "/nowhere", "--measure", "v_x"], "--scene /nowhere: No such file"),
+                ("accuracy-cost", ["--shape", "cube", "--scenes", "section"], "--scenes section is not there for --shape"),
+                ("accuracy-cost", ["--shape", "stl /nowhere.stl"], "clusterShape failed: "),
+                ("accuracy-cost", ["--shape", "stl a.stl spheres 4"], "give the numbers of spheres as --levels"),
+                ("accuracy-cost", ["--shape", "cube", "--levels", "spheres x"], "--levels: 'x' after 'spheres' is not a whole number"),
+                ("accuracy-cost", ["--shape", "cube", "--levels", "hull"], "--levels: 'hull' is unknown for the shape 'cube'"),
+                ("accuracy-cost", ["--shape", "cube", "--levels", "spheres 9"], "clusterShape failed: "),
+                ("accuracy-cost", ["--shape", "cube", "--share", "2"], "--share is 2.0: give 0"),
+                ("accuracy-cost", ["--measure", "v_x"], "--measure belongs to --shape"),
                 ("accuracy-cost", ["--rounding", "0"], "--rounding is 0.0: give 0.01 to 1"),
                 ("accuracy-cost", ["--levels", "C9"], "--levels names 'C9': there are"),
                 ("accuracy-cost", ["--build", "/nowhere"], "there is no /nowhere/bin/eccentra-dem: build it with"),

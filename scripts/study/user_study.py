@@ -1,0 +1,94 @@
+# SPDX-FileCopyrightText: Eccentra contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which level of detail a user's shape needs in a user's scene: a paragraph, a chart and a table."""
+import math
+
+from . import charts, dry, level_study, levels, measures, power, runs, shape_levels, tables, truth_chart
+from .programs import Failure
+
+UNITS = {"heap": "degrees", "drum": "degrees", "hopper": "bodies/s"}
+
+
+class UserStudy:
+    """ladder: shape_levels.Ladder; scene: user_scene.Scene, or None for the dry scenes by name; seeds: (pilot, most)."""
+
+    def __init__(self, store, build, ladder, scene, names, seeds, percent, few_bodies=True):
+        self.store, self.build, self.ladder, self.scene = store, build, ladder, scene
+        self.names, self.seeds, self.percent, self.few_bodies = names, seeds, percent, few_bodies
+        self.groups, self.failures, self.steps = [], [], {}
+
+    def run(self):
+        """Runs what is not there yet; what failed, as sentences."""
+        if self.scene is None:
+            jobs = {level.name: levels.step_job(self.build, level, level_study.RESTITUTION_DRY) for level in self.ladder.levels}
+            found = self.store.run_all("time steps", jobs.values())
+            for name, job in jobs.items():
+                if "failed" in found[job.key()]:
+                    raise Failure(f"the time step of {name}: {found[job.key()]['failed']}")
+                self.steps[name] = found[job.key()].get("critical", math.nan)
+        for name in self.names:
+            self.run_scene(name)
+        return self.failures
+
+    def job(self, name, level, seed):
+        if self.scene:
+            return self.scene.job(self.build, level, seed)
+        step, _ = levels.dividing_step(dry.FRAME, self.steps[level.name])
+        return dry.dry_job(self.build, name, level, seed, dry.SCENES[name][4 if self.few_bodies else 3], step)
+
+    def run_scene(self, name):
+        pilot, most = self.seeds
+        wanted, reference = {level.name: pilot for level in self.ladder.levels}, self.ladder.levels[-1].name
+        known = [level for level in self.ladder.levels if self.scene or not math.isnan(self.steps[level.name])]  # with --show, of what was run
+        while True:
+            jobs = {(level.name, seed): self.job(name, level, seed) for level in known for seed in dry.SEEDS[: wanted[level.name]]}
+            found = self.store.run_all(name, jobs.values())
+            of = {level.name: {seed: found[job.key()] for (at, seed), job in jobs.items() if at == level.name} for level in self.ladder.levels}
+            values = {at: {seed: r["value"] for seed, r in results.items() if runs.good(r)} for at, results in of.items()}
+            more = power.seeds_wanted(values, reference, most)
+            if all(more[at] <= wanted[at] for at in wanted):
+                break
+            wanted = {at: max(number, more[at]) for at, number in wanted.items()}
+        self.groups.append(self.group(name, of, values))
+
+    def group(self, name, of, values):
+        rows = []
+        for level in self.ladder.levels:
+            failed = next((r["failed"] for r in of[level.name].values() if "failed" in r), "")
+            if failed:
+                self.failures.append(f"{name}, {level.name}: {failed}")
+            good = [r for r in of[level.name].values() if runs.good(r)]
+            value, error = measures.mean_and_error(list(values[level.name].values()))
+            mean = lambda key: measures.mean_and_error([r[key] for r in good])[0]
+            rows.append(level_study.Row(level, value, error, len(good), mean("cpu"), mean("wall"), {}, math.nan, {}, failed, values=values[level.name]))
+        title = f"{self.scene.script.name}: {self.scene.measure}" if self.scene else dry.SCENES[name][0]
+        group = level_study.Group(name, shape_levels.name_of(self.ladder.levels[-1].shape), title, "" if self.scene else UNITS[name], rows, True,
+                                  percent=self.percent)
+        group.compare()
+        return group
+
+    def write(self, output):
+        """Tables, CSV and chart; the page."""
+        page, cells = ["## Which level of detail\n"], []
+        header = ["level", "result", "+-", "deviation %", "+-", "CPU s", "runs"]
+        shown = [group for group in self.groups if group.candidates()]
+        if shown:
+            panels = ([truth_chart.overall([group.rows for group in shown])] if len(shown) > 1 else []) + [group.panel() for group in shown]
+            charts.write(output / "answer.svg", f"What accuracy costs: {shown[0].body}", panels, min(2, len(panels)), (6.4, 4.2))
+            page.append("![error over time](answer.svg)\n")
+        for group in self.groups:
+            words = group.plain_words()
+            table = [[row.level.name, row.value, row.error, 100 * row.deviation, 100 * row.deviation_error, row.cpu, row.runs] for row in group.rows]
+            title = f"{group.title}{f' [{group.unit}]' if group.unit else ''}"
+            page += [f"{words[0].upper()}{words[1:]}\n", tables.markdown([title, *header[1:]], table)]
+            print(f"{title}\n\n{tables.text(header, table)}\n{words}\n")
+            cells += level_study.csv_cells(group)
+        remarks = [*self.ladder.remarks, *([] if self.scene is None else [
+            "All levels ran with the time step of the script; a level that bears a longer one costs less than shown. The sphere ran as a cluster "
+            "of one sphere, which takes about 1.5 times as long as one of LIGGGHTS's own."])]
+        if remarks:
+            page.append(f"What is not known: {' '.join(remarks)}\n")
+            print(f"What is not known: {' '.join(remarks)}\n")
+        page.append("Another scene may need another level: these are results of these scenes alone.\n")
+        tables.write_csv(output / "levels.csv", level_study.CSV_COLUMNS, cells)
+        return page
