@@ -54,6 +54,11 @@ std::string recordOf(const Time& time, std::int64_t step) {
   return time.globalPath() / link::kCheckpoints / (named(step) + link::kFluidRecord);
 }
 
+/// The record of the time at which the run that has checkpoints began.
+std::string startOf(const fileName& globalPath) {
+  return globalPath / link::kCheckpoints / "start";
+}
+
 const char* const kWriting = "no checkpoint could be written: ";
 
 /// The first sentence of any rank, on every rank.
@@ -272,8 +277,13 @@ bool sameMesh(const scalarList& a, const scalarList& b) {
   return same;
 }
 
+void clearHalfWritten(const fileName& globalPath, const fileName& path) {
+  if (const std::optional<link::Manifest> start = link::read_record(startOf(globalPath)))
+    removeHalfWritten(std::string(path), std::stod(start->note("time")));
+}
+
 void begin(Time& time, bool again, std::int64_t step) {
-  const std::string path = time.globalPath() / link::kCheckpoints / "start";
+  const std::string path = startOf(time.globalPath());
   const std::optional<link::Manifest> earlier = again ? link::read_record(path) : std::nullopt;
   std::string moved;
   together("", [&] {
@@ -283,7 +293,7 @@ void begin(Time& time, bool again, std::int64_t step) {
   if (!moved.empty())
     Info << moved.c_str() << endl;
   if (again)
-    removeHalfWritten(std::string(time.path()));
+    clearHalfWritten(time.globalPath(), time.path());
   // All have looked before the first rank writes: one that is late would find what the first has just written.
   if (returnReduce(earlier.has_value(), andOp<bool>())) {
     const scalar usual = time.deltaTValue();

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <string>
 
 namespace Foam {
@@ -15,9 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool isTime(const std::string& name) {
-  return !name.empty() && std::isdigit(static_cast<unsigned char>(name[0])) &&
-         name.find_first_not_of("0123456789.e+-") == std::string::npos;
+/// The time that a folder's name says; nothing for other folders.
+std::optional<double> timeOf(const std::string& name) {
+  char* end = nullptr;
+  const double time = std::strtod(name.c_str(), &end);
+  if (name.empty() || !std::isdigit(static_cast<unsigned char>(name[0])) || *end) {
+    return {};
+  }
+  return time;
 }
 
 /// Of OpenFOAM, as far as its first bytes tell; a file that was opened and no more has none.
@@ -46,13 +53,14 @@ bool wholeFile(const fs::path& path) {
   return file && tail.size() >= 2 && tail.substr(tail.size() - 2) == "//";
 }
 
-void removeHalfWritten(const fs::path& folder) {
+void removeHalfWritten(const fs::path& folder, double start) {
   std::error_code gone;
-  for (fs::directory_iterator time(folder, gone), last; !gone && time != last; time.increment(gone)) {
-    if (!isTime(time->path().filename()) || !time->is_directory(gone)) {
+  for (fs::directory_iterator entry(folder, gone), last; !gone && entry != last; entry.increment(gone)) {
+    const std::optional<double> time = timeOf(entry->path().filename());
+    if (!time || !(*time > start) || !entry->is_directory(gone)) {
       continue;
     }
-    for (fs::recursive_directory_iterator it(time->path(), gone), end; !gone && it != end; it.increment(gone)) {
+    for (fs::recursive_directory_iterator it(entry->path(), gone), end; !gone && it != end; it.increment(gone)) {
       if (it->is_regular_file(gone) && !wholeFile(it->path()) && ofOpenFoam(it->path()) &&
           fs::remove(it->path(), gone)) {
         std::cerr << "annulusFoam: note: '" << it->path().string()

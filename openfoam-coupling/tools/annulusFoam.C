@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // annulusFoam: flow of a generalised-Newtonian fluid in an annulus (or any other mesh), alone or with particles.
 #include "coupled/coupledRun.H"
+#include "coupled/fluidCheckpoint.H"
 #include "flow/averagedFlow.H"
 #include "flow/caseFiles.H"
 #include "flow/flowProgress.H"
@@ -9,7 +10,6 @@
 #include "support/arithmeticFault.H"
 #include "support/commonOptions.H"
 #include "support/fieldWriter.H"
-#include "support/halfWritten.H"
 #include "support/inputError.H"
 #include "support/openfoamFolder.H"
 #include "support/patientOutput.H"
@@ -29,7 +29,7 @@ void run(const argList& args) {
     throw inputError("no case in " + args.path() + ": give its folder with -case, or change into it");
   }
   if (args.found("resume")) {
-    removeHalfWritten(std::string(args.path()));
+    eccentra::fluidCheckpoint::clearHalfWritten(args.globalPath(), args.path());
   }
   Time runTime(Time::controlDictName, args);
   checkCaseFiles(runTime);

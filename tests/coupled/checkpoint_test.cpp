@@ -165,7 +165,7 @@ TEST(Checkpoint, DamagedOnesArePassedOver) {
   EXPECT_NE(second.output.find("goes on from checkpoint " + std::to_string(kMiddle)), std::string::npos);
   EXPECT_EQ(result_of(folder).bodies, straight.bodies);
   // And on the fluid's side: one byte.
-  std::fstream field(folder / "checkpoints" / ("fluid-" + std::to_string(kSteps)) / "rank0" / "U",
+  std::fstream field(folder / "checkpoints" / ("fluid-" + std::to_string(kSteps)) / "rank0" / "UNow",
                      std::ios::in | std::ios::out);
   field.seekp(2000);
   field.put('#');

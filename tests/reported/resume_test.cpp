@@ -754,6 +754,6 @@ TEST(Reported, resume_beside_fields_that_a_kill_left_in_pieces) {
     EXPECT_TRUE(says(again.output, "is not whole, as an interrupted run leaves it: removed")) << again.output;
     EXPECT_EQ(result_of(folder), whole.result) << kept;
     for (const char* field : {"U", "U_0", "p", "phi", "alpha"})
-      EXPECT_EQ(contents(folder / last.filename() / field), contents(last / field)) << field << kept;
+      EXPECT_TRUE(contents(folder / last.filename() / field) == contents(last / field)) << field << kept;
   }
 }
