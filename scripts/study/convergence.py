@@ -4,6 +4,8 @@
 import dataclasses
 import math
 
+from . import least_squares
+
 STEEPEST = 3.0  # power that is looked for
 SURE = 2.0  # standard errors by which something must differ from zero
 
@@ -20,33 +22,11 @@ class Fit:
     misfit: float
 
 
-def _solve(matrix, right):
-    """Solution of a small symmetric system by elimination; None where it is singular."""
-    size = len(right)
-    rows = [list(row) + [value] for row, value in zip(matrix, right)]
-    for k in range(size):
-        best = max(range(k, size), key=lambda i: abs(rows[i][k]))
-        if abs(rows[best][k]) < 1e-300:
-            return None
-        rows[k], rows[best] = rows[best], rows[k]
-        for i in range(size):
-            if i != k:
-                share = rows[i][k] / rows[k][k]
-                rows[i] = [a - share * b for a, b in zip(rows[i], rows[k])]
-    return [rows[k][size] / rows[k][k] for k in range(size)]
-
-
-def _normal(columns, values, weights):
-    """Coefficients of the weighted least squares of `values` by `columns`, and the matrix of the normal equations."""
-    matrix = [[sum(w * a * b for w, a, b in zip(weights, one, other)) for other in columns] for one in columns]
-    return _solve(matrix, [sum(w * a * v for w, a, v in zip(weights, one, values)) for one in columns]), matrix
-
-
 def _at(power, points, weights, with_rest):
     """(chi^2, factor, rest) at a power."""
     falling = [n ** -power for n, *_ in points]
     columns = [falling, [1.0] * len(points)] if with_rest else [falling]
-    found, _ = _normal(columns, [d for _, d, _ in points], weights)
+    found, _ = least_squares.fit(columns, [d for _, d, _ in points], weights)
     if found is None:
         return math.inf, math.nan, math.nan
     factor, rest = found[0], found[1] if with_rest else 0.0
@@ -70,11 +50,11 @@ def fit(points, with_rest=False):
     chi2, factor, rest = _at(power, points, weights, with_rest)
     falling = [n ** -power for n, *_ in points]
     columns = [falling, [-factor * math.log(n) * f for f, (n, *_) in zip(falling, points)]] + ([[1.0] * len(points)] if with_rest else [])
-    _, matrix = _normal(columns, [0.0] * len(points), weights)
+    _, matrix = least_squares.fit(columns, [0.0] * len(points), weights)
     misfit = chi2 / (len(points) - unknowns)
-    variance = lambda k: _solve(matrix, [float(i == k) for i in range(len(columns))])
     widened = math.sqrt(max(1.0, misfit))
-    errors = [math.nan if (row := variance(k)) is None or row[k] < 0 else math.sqrt(row[k]) * widened for k in range(len(columns))]
+    spread = least_squares.variances(matrix) or [math.nan] * len(columns)
+    errors = [math.sqrt(v) * widened if v >= 0 else math.nan for v in spread]
     return Fit(power, errors[1], factor, rest, errors[2] if with_rest else 0.0, misfit)
 
 

@@ -51,6 +51,8 @@ def dry_job(build, scene, level, seed, bodies, step):
                  "wall_words": "tangential_damping on"}
     if level.kind == "friction":
         variables |= {"rolling": "shape", "words": "form limited", "wall_words": "form limited"}
+    if level.slide is not None:
+        variables["mu_s"] = level.slide
     if level.kind == "eccentric":
         variables |= {"rolling": "eccentric", "words": f"shape {level.shape}"}
     inputs = {"what": "dry", "scene": digest_of(SCENE / f"in.{scene}", SCENE / "bodies.in"),

@@ -5,7 +5,7 @@ import dataclasses
 import math
 import statistics
 
-from . import charts, convergence, dry, levels, measures, power, runs, section, tables, timing, truth_chart
+from . import charts, convergence, dry, forecast, levels, measures, power, runs, section, tables, timing, truth_chart
 
 PERCENT = 5.0  # the accuracy that the plain words ask for
 # What a point of the annulus is judged by: solids move at 0 and 40 degrees and form a bed at rest at 80.
@@ -336,6 +336,8 @@ class Study:
                 first.append(self.overall_words(body, central))
         page[1:1] = first
         page += self.summary()
+        for body in self.bodies:
+            page += forecast.page_of(self.build, [group for group in self.groups if group.body == body and group.judged], self.output, f"forecast-{body}")
         page += self.times()
         page += ["Time steps: the largest that divides a frame (dry) or a fluid step (annulus) and is at most "
                  f"{levels.SAFETY} of the smallest critical step that `fix timestep/limit` met while bodies fell and came to rest:\n",

@@ -29,12 +29,14 @@ SMOOTH_COST = 30  # spheres of the cluster that costs as much, for the time left
 
 @dataclasses.dataclass(frozen=True)
 class Level:
-    """kind: sphere, friction (sphere with mu_shape), eccentric (sphere that cogs), cluster or smooth; shape: words of a shape."""
+    """kind: sphere, friction (sphere with mu_shape), eccentric (sphere that cogs), cluster or smooth; shape: words of a shape;
+    mu: mu_shape; slide: coefficient of sliding friction, None for that of the scene."""
     name: str
     kind: str
     shape: str = "sphere 1"
     mu: float = 0.0
     spheres: int = 1
+    slide: float = None
 
     def has_shape(self):
         """Whether the particle itself has the shape, and is no sphere that stands for it."""

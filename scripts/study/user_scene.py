@@ -81,6 +81,8 @@ class Scene:
         variables = {"shape": level.shape, "seed": seed}
         if self.takes_friction():
             variables |= {"rolling": "shape" if level.kind == "friction" else "off", "mu_shape": level.mu}
+        if level.slide is not None:
+            variables["mu_s"] = level.slide
         described = {"what": "user's scene", "scene": digest_of(self.script, *inputs), "measure": self.measure, "share": self.share,
                      **variables, "shape": shape_key(level.shape)}
 

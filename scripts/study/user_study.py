@@ -3,7 +3,7 @@
 """Which level of detail a user's shape needs in a user's scene: a paragraph, a chart and a table."""
 import math
 
-from . import charts, dry, level_study, levels, measures, power, runs, shape_levels, tables, truth_chart
+from . import charts, dry, forecast, level_study, levels, measures, power, runs, shape_levels, tables, truth_chart
 from .programs import Failure
 
 UNITS = {"heap": "degrees", "drum": "degrees", "hopper": "bodies/s"}
@@ -90,5 +90,6 @@ class UserStudy:
             page.append(f"What is not known: {' '.join(remarks)}\n")
             print(f"What is not known: {' '.join(remarks)}\n")
         page.append("Another scene may need another level: these are results of these scenes alone.\n")
+        page[-1:-1] = forecast.page_of(self.build, self.groups, output, "forecast")
         tables.write_csv(output / "levels.csv", level_study.CSV_COLUMNS, cells)
         return page

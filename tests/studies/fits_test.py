@@ -1,0 +1,148 @@
+# SPDX-FileCopyrightText: Eccentra contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tests of the fits of scripts/study: roots of noisy results, predictions of errors; and of the script that calibrates spheres."""
+import csv
+import math
+import os
+import pathlib
+import random
+import statistics
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+BUILD = pathlib.Path(os.environ.get("ECCENTRA_BUILD", ROOT / "build"))
+sys.path.insert(0, str(ROOT / "scripts"))
+from study import calibration, least_squares, prediction  # noqa: E402
+
+
+class LeastSquares(unittest.TestCase):
+    def test_line_and_its_variance(self):
+        x, errors = [0.0, 1.0, 2.0, 3.0], [0.1, 0.2, 0.1, 0.4]
+        found, matrix = least_squares.fit([[1.0] * 4, x], [2 + 3 * v for v in x], [e**-2 for e in errors])
+        self.assertAlmostEqual(found[0], 2)
+        self.assertAlmostEqual(found[1], 3)
+        # Closed form of a weighted line: var(slope) = 1 / sum w (x - mean)^2.
+        w = [e**-2 for e in errors]
+        mean = sum(a * b for a, b in zip(w, x)) / sum(w)
+        self.assertAlmostEqual(least_squares.variances(matrix)[1], 1 / sum(a * (b - mean) ** 2 for a, b in zip(w, x)))
+        self.assertIsNone(least_squares.fit([[1.0] * 4, [2.0] * 4], x, w)[0])
+
+
+class Calibration(unittest.TestCase):
+    def search(self, result, wanted, error, noise, chance):
+        points = [(x, chance.gauss(result(x), noise), noise) for x in (0.0, 0.2, 0.8)]
+        for _ in range(5):
+            at = calibration.next_coefficient(points, wanted, error, 0.01)
+            if at is None:
+                break
+            points.append((at, chance.gauss(result(at), noise), noise))
+        return calibration.root(points, wanted, error)
+
+    def test_root_of_a_noisy_curve_and_its_error(self):
+        for sign in (1, -1):  # a heap grows with friction, a discharge falls
+            chance, scaled = random.Random(4), []
+            result = lambda mu: sign * 30 * (1 - math.exp(-4 * mu))
+            for _ in range(100):
+                found = self.search(result, chance.gauss(result(0.23), 0.4), 0.4, 0.6, chance)
+                self.assertEqual(found.side, "")
+                scaled.append((found.value - 0.23) / found.error)
+            self.assertLess(abs(statistics.fmean(scaled)), 0.6)  # a straight line through a curve: half an error
+            self.assertGreater(statistics.stdev(scaled), 0.7)
+            self.assertLess(statistics.stdev(scaled), 1.6)
+
+    def test_exact_line(self):
+        points = [(0.0, 1.0, 0.1), (1.0, 3.0, 0.1)]
+        found = calibration.root(points, 2.0, 0.3)
+        self.assertAlmostEqual(found.value, 0.5)
+        self.assertAlmostEqual(found.error, math.sqrt(0.1**2 / 2 + 0.3**2) / 2)  # at the middle of a line of slope 2
+
+    def test_what_has_no_root(self):
+        rising = [(0.0, 1.0, 0.1), (0.5, 3.0, 0.1), (1.0, 5.0, 0.1)]
+        self.assertEqual(calibration.root(rising, 6.0, 0.1).side, "above")
+        self.assertEqual(calibration.root(rising, 0.5, 0.1).side, "below")
+        falling = [(x, -y, e) for x, y, e in rising]
+        self.assertEqual(calibration.root(falling, -6.0, 0.1).side, "above")
+        self.assertEqual(calibration.root(falling, -0.5, 0.1).side, "below")
+        self.assertEqual(calibration.root([(0.0, 1.0, 0.1), (1.0, 1.1, 0.1)], 2.0, 0.1).side, "flat")
+        self.assertIsNone(calibration.next_coefficient(rising, 6.0, 0.1, 0.01))
+        self.assertEqual(calibration.root(rising, 6.0, 0.1).words(), "at least 1")
+
+
+class Prediction(unittest.TestCase):
+    DEFECTS = {"S1": 1.0, "C8": 0.5, "C27": 0.3, "C64": 0.2, "C125": 0.1}
+
+    def test_errors_that_follow_the_geometry_are_predicted(self):
+        chance = random.Random(3)
+        scenes = {"heap": 0.9, "drum": 0.8, "hopper": 1.0, "annulus": 0.85}
+        sizes = {s: {n: abs(chance.gauss(c * g, 0.01)) for n, g in self.DEFECTS.items()} for s, c in scenes.items()}
+        noises = {s: dict.fromkeys(self.DEFECTS, 0.01) for s in scenes}
+        made = prediction.leave_one_out(sizes, noises, self.DEFECTS)
+        self.assertEqual(len(made), 20)
+        self.assertGreaterEqual(sum(f.holds() for f in made), 16)  # the error is one for all levels
+        self.assertLess(max(abs(f.predicted - f.measured) for f in made), 0.25)
+        self.assertNotIn("of no use", prediction.words_of(made))
+
+    def test_a_scene_is_predicted_without_its_own_results(self):
+        sizes = {s: {n: g for n, g in self.DEFECTS.items()} for s in ("a", "b", "c")}
+        noises = {s: dict.fromkeys(self.DEFECTS, 0.0) for s in sizes}
+        before = {f.level: f.predicted for f in prediction.leave_one_out(sizes, noises, self.DEFECTS) if f.scene == "c"}
+        sizes["c"] = {n: 7.0 for n in self.DEFECTS}
+        after = {f.level: f.predicted for f in prediction.leave_one_out(sizes, noises, self.DEFECTS) if f.scene == "c"}
+        self.assertEqual(before, after)
+        for level, value in before.items():
+            self.assertAlmostEqual(value, self.DEFECTS[level])
+
+    def test_errors_without_a_rule_are_of_no_use(self):
+        chance = random.Random(8)
+        sizes = {s: {n: chance.random() for n in self.DEFECTS} for s in ("a", "b", "c", "d")}
+        noises = {s: dict.fromkeys(self.DEFECTS, 0.01) for s in sizes}
+        made = prediction.leave_one_out(sizes, noises, self.DEFECTS)
+        self.assertIn("of no use", prediction.words_of(made))
+        self.assertGreater(statistics.fmean(f.error for f in made), 0.2)  # the prediction knows how far off it is
+        self.assertEqual(prediction.leave_one_out({"a": {}, "b": {}}, {}, self.DEFECTS), [])
+
+    def test_defect(self):
+        self.assertEqual((prediction.defect(0.0, 0.5), prediction.defect(0.5, 0.5)), (1.0, 0.0))
+
+
+class CalibrateRolling(unittest.TestCase):
+    SCRIPT = ROOT / "cases" / "own-scene" / "in.collapse"
+
+    def run_script(self, *words):
+        return subprocess.run([ROOT / "scripts" / "calibrate-rolling", "--build", BUILD, *map(str, words)], capture_output=True, text=True)
+
+    def test_a_small_scene(self):
+        with tempfile.TemporaryDirectory() as folder:
+            words = ("--shape", "cube", "--rounding", "0.3", "--scene", "mine", "--mine", self.SCRIPT, "--measure", "v_height", "--share", "0",
+                     "--others", "heap", "--seeds", "2", "--jobs", "1", "--out", folder)
+            said = self.run_script(*words)
+            self.assertEqual(said.returncode, 0, said.stderr + said.stdout)
+            with open(pathlib.Path(folder) / "calibration.csv", newline="") as rows:
+                table = {row["judged_in"]: row for row in csv.DictReader(rows)}
+            self.assertEqual(set(table), {"mine", "heap"})
+            # The sphere that was fitted has the height of the cubes; without friction it lies on the floor (-30 %).
+            self.assertLess(abs(float(table["mine"]["deviation"])), 0.25)
+            self.assertGreater(float(table["mine"]["mu_shape"]), 0.05)
+            self.assertTrue((pathlib.Path(folder) / "calibration.svg").is_file())
+            self.assertNotIn(" s of CPU |", self.run_script(*words).stderr)  # nothing is repeated
+
+    def test_bad_words(self):
+        for words, says in ((["--seeds", "1"], "--seeds is 1: give 2 to 20"), (["--scene", "mine"], "--scene mine needs --mine FILE"),
+                            (["--scene", "ocean"], "invalid choice: 'ocean'"), (["--range", "0.5", "0.1"], "--range is 0.5 0.1: give two rising numbers"),
+                            (["--mu-shape", "0.1"], "--mu-shape is 0.1: give a number from 0 on, with --vary mu_s alone"),
+                            (["--mine", self.SCRIPT], "--mine FILE and --measure COLUMN belong together"),
+                            (["--vary", "mu_s", "--mine", self.SCRIPT, "--measure", "v_height"], "no line 'variable mu_s index ...'"),
+                            (["--shape", "cube 9"], "clusterShape failed: ")):
+            with self.subTest(" ".join(map(str, words))), tempfile.TemporaryDirectory() as folder:
+                said = self.run_script("--out", pathlib.Path(folder) / "results", *words)
+                self.assertNotEqual(said.returncode, 0)
+                self.assertIn(says, said.stderr)
+                self.assertNotIn("Traceback", said.stderr)
+                self.assertEqual(list(pathlib.Path(folder).iterdir()), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
