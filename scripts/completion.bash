@@ -37,7 +37,7 @@ _eccentra_words() {
     clusterShape | compare) printf '%s' 'sphere cube disk file stl compare advise list' ;;
     advise) printf '%s' 'cube disk' ;;
     eccentra) "$1" --help 2>/dev/null | sed -n 's/^  \([a-z][a-z-]*\) .*/\1/p' | grep -v '^eccentra$' ;;
-    new) printf '%s' 'section well' ;;
+    new) printf '%s' 'section well bed heap drum' ;;
   esac
 }
 

@@ -148,7 +148,29 @@ Case read_case(const fs::path& folder) {
   Case result;
   result.folder = folder;
   result.name = fs::canonical(folder).filename().string();
+  const fs::path table = folder / "postProcessing" / "eccentra" / "coupling.csv";
+  const fs::path log = folder / "log.liggghts";
+  if (fs::is_regular_file(log))
+    result.dem = read_dem_log(text_of(log, "the run writes it"));
+  // LIGGGHTS writes a second file with the bounding box beside each: those do not count.
+  result.bodies = find_files(folder, std::regex(R"((?:particles|bodies)[_.-]?(\d+)\.vt[kp])"));
+  result.spheres = find_files(folder, std::regex(R"((?:grains|spheres|clusters|heap)[_.-]?(\d+)\.vt[kp])"));
+  if (result.spheres.empty())
+    result.spheres = result.bodies;
+  if (result.bodies.empty())
+    result.bodies = result.spheres;
   const fs::path dictionary = folder / "system" / "annulusMeshDict";
+  result.is_annulus = fs::is_regular_file(dictionary);
+  if (!result.is_annulus) {
+    if (result.bodies.empty())
+      throw std::runtime_error(
+          folder.string() +
+          ": neither system/annulusMeshDict nor files of particles; expected the folder of a run, with "
+          "postProcessing/eccentra/particles_*.vtk (dump custom/vtk) or grains_*.vtp (dump cluster/vtk)");
+    if (fs::is_regular_file(table))
+      result.run = read_csv(table);
+    return result;
+  }
   const std::string text = with_scene(
       without_comments(text_of(dictionary, "a case of annulusFoam has it; give the case folder itself")), folder);
   const auto number = [&](const char* keyword) { return entry(text, dictionary, keyword, 0, true); };
@@ -157,14 +179,7 @@ Case read_case(const fs::path& folder) {
   result.section.length = number("length");
   result.section.pipe_centre = {0, -number("eccentricity") * (result.section.hole_radius - result.section.pipe_radius)};
   result.inclination = entry(text, dictionary, "inclination", 0, false);
-  result.run = read_csv(folder / "postProcessing" / "eccentra" / "coupling.csv");
-  // LIGGGHTS writes a second file with the bounding box beside each: those do not count.
-  result.bodies = find_files(folder, std::regex(R"((?:particles|bodies)[_.-]?(\d+)\.vt[kp])"));
-  result.spheres = find_files(folder, std::regex(R"((?:grains|spheres|clusters)[_.-]?(\d+)\.vt[kp])"));
-  if (result.spheres.empty())
-    result.spheres = result.bodies;
-  if (result.bodies.empty())
-    result.bodies = result.spheres;
+  result.run = read_csv(table);
   return result;
 }
 
@@ -221,9 +236,12 @@ vtkDataArray* velocity_of(vtkPolyData& points) {
   return velocity != nullptr ? velocity : points.GetPointData()->GetArray("v");
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> read_flow(const fs::path& folder) {
+vtkSmartPointer<vtkUnstructuredGrid> read_flow(const fs::path& folder, double time) {
+  const fs::path control_file = folder / "system" / "controlDict";
+  if (!fs::is_regular_file(control_file))
+    return nullptr;
   const auto reader = vtkSmartPointer<vtkPOpenFOAMReader>::New();
-  const std::string control = (folder / "system" / "controlDict").string();
+  const std::string control = control_file.string();
   reader->SetFileName(control.c_str());
   // Without a controller, which nobody but MPI sets, VTK 9.1 follows a null pointer where a case is in parts.
   const auto alone = vtkSmartPointer<vtkDummyController>::New();
@@ -245,7 +263,11 @@ vtkSmartPointer<vtkUnstructuredGrid> read_flow(const fs::path& folder) {
   reader->DisableAllCellArrays();
   reader->SetCellArrayStatus("U", 1);
   reader->CreateCellToPointOn();
-  reader->UpdateTimeStep(times[count - 1]);
+  const double* chosen = times + count - 1;
+  if (time >= 0)
+    chosen = std::min_element(times, times + count,
+                              [time](double a, double b) { return std::abs(a - time) < std::abs(b - time); });
+  reader->UpdateTimeStep(*chosen);
   const auto together = vtkSmartPointer<vtkAppendFilter>::New();
   auto* blocks = vtkMultiBlockDataSet::SafeDownCast(reader->GetOutputDataObject(0));
   if (blocks == nullptr)

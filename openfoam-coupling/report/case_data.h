@@ -3,6 +3,7 @@
 // Contents of a case folder: geometry and gravity, the table of the coupled run, particles at the written times.
 #pragma once
 
+#include "report/dem_log.h"
 #include "report/section_measures.h"
 
 #include <vtkDataArray.h>
@@ -38,14 +39,17 @@ struct ParticleFile {
 struct Case {
   std::filesystem::path folder;
   std::string name;
+  bool is_annulus = false; ///< of annulusMesh; `section` and `inclination` hold for such cases alone
   Section section;
   double inclination = 0;            ///< degrees from the vertical
-  Table run;                         ///< postProcessing/eccentra/coupling.csv
+  DemRun dem;                        ///< log.liggghts
+  Table run;                         ///< postProcessing/eccentra/coupling.csv; empty without a fluid
   std::vector<ParticleFile> bodies;  ///< one point per body: velocity, and mass and density, or the radius of a sphere
   std::vector<ParticleFile> spheres; ///< to draw: sub-spheres if bodies are clusters, else `bodies`
 };
 
-/// Throws std::runtime_error with one sentence that names the file, the keyword and the remedy.
+/// A case of an annulus has system/annulusMeshDict and coupling.csv. Any other one has log.liggghts, and coupling.csv
+/// if it has a fluid. Throws std::runtime_error with one sentence that names the file, the keyword and the remedy.
 Case read_case(const std::filesystem::path& folder);
 
 /// One body file as numbers.
@@ -57,7 +61,8 @@ vtkSmartPointer<vtkPolyData> read_points(const std::filesystem::path& file);
 /// The velocities as dump cluster/vtk or dump custom/vtk name them, or null.
 vtkDataArray* velocity_of(vtkPolyData& points);
 
-/// The mesh with the last U written (point data), or null if the run wrote no time; whole or in parts of processors.
-vtkSmartPointer<vtkUnstructuredGrid> read_flow(const std::filesystem::path& folder);
+/// The mesh with the U written last (point data), or null if the run wrote no time; whole or in parts of processors.
+/// With `time` >= 0 the one that was written next to it.
+vtkSmartPointer<vtkUnstructuredGrid> read_flow(const std::filesystem::path& folder, double time = -1);
 
 } // namespace eccentra::report

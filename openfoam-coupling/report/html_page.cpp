@@ -54,6 +54,9 @@ std::string html_page(const std::vector<Summary>& summaries, const std::filesyst
          "0}</style></head>\n<body><h1>" +
          title + "</h1>\n<pre>" + escaped(to_text(summaries)) + "</pre>\n" +
          picture(folder / "beds.png", "Bodies coloured by speed in front of the speed of the fluid") +
+         picture(folder / "scene.png",
+                 "Bodies coloured by speed, walls, and the speed of the fluid where there is one") +
+         picture(folder / "strip.png", "From the start to the end of the run") +
          picture(folder / "charts.png", "Profile, flux, pressure gradient and cost") + "</body></html>\n";
 }
 

@@ -117,4 +117,32 @@ double share_at_rest(const Snapshot& snapshot, double speed) {
   return all > 0 ? resting / all : 0;
 }
 
+SolidState solid_state(const Snapshot& snapshot, const Vector& up) {
+  SolidState state;
+  std::vector<std::pair<double, double>> heights; // with the volumes
+  for (std::size_t i = 0; i < snapshot.position.size(); ++i) {
+    const Vector& x = snapshot.position[i];
+    const Vector& v = snapshot.velocity[i];
+    const double height = x[0] * up[0] + x[1] * up[1] + x[2] * up[2];
+    heights.emplace_back(height, snapshot.volume[i]);
+    state.volume += snapshot.volume[i];
+    state.centre += snapshot.volume[i] * height;
+    state.speed += snapshot.volume[i] * std::hypot(v[0], v[1], v[2]);
+  }
+  if (!(state.volume > 0))
+    return state;
+  state.centre /= state.volume;
+  state.speed /= state.volume;
+  std::sort(heights.begin(), heights.end());
+  constexpr double share = 0.98;
+  double below = 0;
+  for (const auto& [height, volume] : heights) {
+    below += volume;
+    state.top = height;
+    if (below >= share * state.volume)
+      break;
+  }
+  return state;
+}
+
 } // namespace eccentra::report

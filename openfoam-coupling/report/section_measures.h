@@ -47,6 +47,17 @@ double mean_concentration(const Section& section, const Snapshot& snapshot);
 /// Solid flux along the hole, sum V v_z / L [m3/s].
 double solid_flux(const Section& section, const Snapshot& snapshot);
 
+/// Of all bodies, weighted by volume; heights along `up` from the origin.
+struct SolidState {
+  double volume = 0; ///< [m3]
+  double centre = 0; ///< height of the centre [m]
+  double top = 0;    ///< height that 98 % of the volume is below, each body counted at its centre [m]
+  double speed = 0;  ///< mean speed [m/s]
+};
+
+/// `up`: unit vector. All 0 without bodies.
+SolidState solid_state(const Snapshot& snapshot, const Vector& up);
+
 /// Share of the solid volume that moves along the hole slower than `speed` [m/s].
 double share_at_rest(const Snapshot& snapshot, double speed);
 

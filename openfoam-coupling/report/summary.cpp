@@ -56,6 +56,54 @@ std::string cell(const Quantity& q) {
              : value;
 }
 
+/// What the bodies of any scene are doing, as means over the files of the last part of the run.
+void add_bodies(Summary& summary, const Case& data, double share) {
+  const Vector& g = data.dem.gravity;
+  const double size = std::hypot(g[0], g[1], g[2]);
+  const Vector up = size > 0 ? Vector{-g[0] / size, -g[1] / size, -g[2] / size} : Vector{0, 0, 1};
+  const bool counted = data.run.has("particles");
+  std::vector<double> count;
+  std::vector<double> solid;
+  std::vector<double> centre;
+  std::vector<double> top;
+  std::vector<double> speed;
+  for (const ParticleFile& file : data.bodies) {
+    if (static_cast<double>(file.step) < (1 - share) * static_cast<double>(data.bodies.back().step))
+      continue;
+    const Snapshot snapshot = read_snapshot(file);
+    const SolidState state = solid_state(snapshot, up);
+    count.push_back(static_cast<double>(snapshot.position.size()));
+    solid.push_back(state.volume);
+    if (snapshot.position.empty())
+      continue;
+    centre.push_back(state.centre);
+    top.push_back(state.top);
+    speed.push_back(state.speed);
+  }
+  if (count.empty())
+    return;
+  if (!counted)
+    summary.quantities.push_back({"bodies", "", mean_of(count), 1});
+  summary.quantities.push_back({"solid volume", "cm3", mean_of(solid), 1e6});
+  if (centre.empty())
+    return;
+  summary.quantities.push_back({"height of the solid's centre (bodies)", "mm", mean_of(centre), 1000});
+  summary.quantities.push_back({"height that 98 % of the solid is below", "mm", mean_of(top), 1000});
+  summary.quantities.push_back({"mean speed of the solid", "m/s", mean_of(speed), 1});
+}
+
+/// A run without a fluid.
+Summary summary_of_bodies(const Case& data, double share) {
+  Summary summary;
+  summary.name = data.name;
+  const double step = data.dem.time_step > 0 ? data.dem.time_step : 1;
+  summary.in_steps = !(data.dem.time_step > 0);
+  summary.until = step * static_cast<double>(data.bodies.back().step);
+  summary.from = (1 - share) * summary.until;
+  add_bodies(summary, data, share);
+  return summary;
+}
+
 } // namespace
 
 Mean mean_of(const std::vector<double>& values, std::size_t parts_wanted) {
@@ -91,6 +139,8 @@ Summary summarise(const Case& data, double share, std::size_t layers) {
   if (!(share > 0 && share <= 1))
     throw std::invalid_argument("the share of the run to take means over is " + std::to_string(share) +
                                 ": give more than 0 and at most 1");
+  if (!data.is_annulus && data.run.rows() == 0)
+    return summary_of_bodies(data, share);
   if (data.run.rows() == 0)
     throw std::runtime_error((data.folder / "postProcessing/eccentra/coupling.csv").string() +
                              ": no row yet: has the run reached its first report?");
@@ -111,13 +161,15 @@ Summary summarise(const Case& data, double share, std::size_t layers) {
       summary.quantities.push_back({c.name, c.unit, mean_of(late(data.run.columns.at(c.column))), c.scale});
 
   // From the particles themselves, over the snapshots of the same part of the run.
+  if (!data.is_annulus)
+    add_bodies(summary, data, share);
   std::vector<double> height;
   std::vector<double> rest;
-  summary.profile.assign(layers, 0.0);
+  summary.profile.assign(data.is_annulus ? layers : 0, 0.0);
   std::size_t snapshots = 0;
   const long last_step = data.bodies.empty() ? 0 : data.bodies.back().step;
   for (const ParticleFile& file : data.bodies) {
-    if (static_cast<double>(file.step) < (1 - share) * static_cast<double>(last_step))
+    if (!data.is_annulus || static_cast<double>(file.step) < (1 - share) * static_cast<double>(last_step))
       continue;
     const Snapshot snapshot = read_snapshot(file);
     const auto profile = concentration_profile(data.section, snapshot, high_side(), layers);
@@ -158,7 +210,8 @@ std::string to_text(const std::vector<Summary>& summaries) {
   std::string text = fmt::format("{:<{}}", "mean +- standard error", first);
   for (const Summary& s : summaries)
     text += fmt::format("{:>{}}", s.name, wide);
-  text += fmt::format("\n{:<{}}", "  over the time [s]", first);
+  const bool steps = std::any_of(summaries.begin(), summaries.end(), [](const Summary& s) { return s.in_steps; });
+  text += fmt::format("\n{:<{}}", steps ? "  over the time [s, or steps]" : "  over the time [s]", first);
   for (const Summary& s : summaries)
     text += fmt::format("{:>{}}", fmt::format("{:.2f}..{:.2f}", s.from, s.until), wide);
   text += "\n";

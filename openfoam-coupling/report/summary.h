@@ -29,10 +29,11 @@ struct Quantity {
 
 struct Summary {
   std::string name;
-  double from = 0;  ///< mean from here [s] ...
-  double until = 0; ///< ... to here
+  double from = 0;       ///< mean from here [s] ...
+  double until = 0;      ///< ... to here
+  bool in_steps = false; ///< both are steps: log.liggghts does not say how long these are
   std::vector<Quantity> quantities;
-  std::vector<double> profile;                         ///< solid fraction per layer, low side first
+  std::vector<double> profile;                         ///< solid fraction per layer, low side first; of an annulus
   std::vector<std::pair<std::string, double>> seconds; ///< wall-clock seconds by part
 };
 

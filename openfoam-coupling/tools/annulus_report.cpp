@@ -5,12 +5,14 @@
 #include "report/bed_picture.h"
 #include "report/charts.h"
 #include "report/html_page.h"
+#include "report/scene_picture.h"
 #include "report/summary.h"
 #include "shape/vtk/virtual_display.h"
 
 #include <CLI/CLI.hpp>
 #include <vtkObject.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -30,10 +32,11 @@ void write(const fs::path& file, const std::string& text) {
 
 int run(int argc, char** argv) {
   CLI::App app(
-      "Concentration, bed, fluxes, pressure gradient and cost of coupled runs: a table, CSV, charts and pictures.\n"
-      "Reads CASE/system/annulusMeshDict, CASE/postProcessing/eccentra/coupling.csv, the particles that the run\n"
-      "dumped (beside coupling.csv: particles_*.vtk, grains_*.vtp) and the last flow written. Several cases: side by "
-      "side.");
+      "Numbers, charts and pictures of runs: coupled ones on any mesh, and runs of LIGGGHTS alone.\n"
+      "Reads CASE/log.liggghts, CASE/postProcessing/eccentra/coupling.csv, the particles that the run dumped beside "
+      "it\n"
+      "(particles_*.vtk, grains_*.vtp), the last flow written and, of an annulus, CASE/system/annulusMeshDict.\n"
+      "Several cases: side by side.");
   app.name("annulusReport");
   std::vector<std::string> folders;
   std::string out;
@@ -41,12 +44,15 @@ int run(int argc, char** argv) {
   std::size_t layers = 40;
   bool pictures = true;
   bool html = false;
+  std::size_t frames = 0;
   app.add_option("CASE", folders, "case folders")->required();
   app.add_option("-o,--output", out, "folder for what is written (default: CASE/report of the first case)");
   app.add_option("--share", share, "the last part of the run that means are taken over (default 0.5)");
   app.add_option("--layers", layers, "layers of the concentration profile (default 40)")->check(CLI::Range(2, 1000));
   app.add_flag("!--no-pictures", pictures, "table and CSV alone");
   app.add_flag("--html", html, "also report.html: one page that needs no other file");
+  app.add_option("--frames", frames, "a strip of so many pictures from the start to the end of the first case")
+      ->check(CLI::Range(1, 100));
   app.set_version_flag("--version", ECCENTRA_REPORT_VERSION);
   try {
     app.parse(argc, argv);
@@ -71,12 +77,24 @@ int run(int argc, char** argv) {
   std::fputs(table.c_str(), stdout);
   write(folder / "summary.txt", table);
   write(folder / "summary.csv", to_csv(summaries));
-  write(folder / "profile.csv", profile_csv(summaries));
+  if (std::any_of(cases.begin(), cases.end(), [](const Case& c) { return c.is_annulus; }))
+    write(folder / "profile.csv", profile_csv(summaries));
+  for (const Case& c : cases)
+    for (const std::string& id : c.dem.left_out)
+      std::fprintf(stderr, "annulusReport: note: %s: mesh %s is turned by its script and is not drawn\n",
+                   c.name.c_str(), id.c_str());
   if (pictures) {
     const eccentra::shape::VirtualDisplay display;
     vtkObject::GlobalWarningDisplayOff();
-    draw_charts(cases, summaries, folder / "charts.png");
-    draw_beds(cases, folder / "beds.png");
+    const bool annuli = std::all_of(cases.begin(), cases.end(), [](const Case& c) { return c.is_annulus; });
+    if (std::any_of(cases.begin(), cases.end(), [](const Case& c) { return c.run.rows() > 0; }))
+      draw_charts(cases, summaries, folder / "charts.png");
+    if (annuli)
+      draw_beds(cases, folder / "beds.png");
+    else
+      draw_views(last_views(cases), folder / "scene.png");
+    if (frames > 0)
+      draw_views(strip(cases.front(), frames), folder / "strip.png");
   }
   if (html)
     write(folder / "report.html", html_page(summaries, folder));

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Writes the files of a case that was laid out: the scene, and what reads it."""
+import contextlib
 import os
 import pathlib
 import shutil
@@ -9,14 +10,16 @@ from .programs import BUILD, CASES, SCENES, Failure
 
 HEADER = """// SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All numbers of this case: the DEM script, the mesh and the boundary conditions read them here. SI units.
+// All numbers of this case: the DEM script and, with a fluid, the mesh and the boundary conditions read them here. SI units.
 """
 CYCLIC = ("inlet  { type cyclic; }", "outlet { type cyclic; }")
 ENDS = {"section": {"U": CYCLIC, "p": CYCLIC},
         "well": {"U": ("inlet  { type fixedValue; value uniform (0 0 $:scene.velocity); }",
                        "outlet { type inletOutlet; inletValue uniform (0 0 0); value uniform (0 0 $:scene.velocity); }"),
                  "p": ("inlet  { type zeroGradient; }", "outlet { type fixedValue; value uniform 0; }")}}
-TITLES = {"section": "Cuttings in a periodic section of an annulus.", "well": "Cuttings injected into an annulus."}
+TITLES = {"section": "Cuttings in a periodic section of an annulus.", "well": "Cuttings injected into an annulus.",
+          "heap": "Grains poured on a floor.", "drum": "Grains in a drum that turns about its horizontal axis.",
+          "bed": "Grains on a porous floor, through which a fluid rises."}
 
 
 def entries(layout):
@@ -54,10 +57,10 @@ def largest_viscosity(layout):
     return float(f"{max(1000 * (wish.tau0 / rate + wish.k * rate**(wish.n - 1)), 10):.1g}")
 
 
-def scene_text(layout):
-    """The file scene."""
+def scene_text(rows):
+    """The file scene, of its rows (name, value, what it is)."""
     lines = [HEADER]
-    for row in entries(layout):
+    for row in rows:
         if row is None:
             lines.append("")
             continue
@@ -70,7 +73,7 @@ def scene_text(layout):
 def part(name):
     """A part of the DEM script; the licence stands in its head alone."""
     text = (SCENES / "new" / f"{name}.in").read_text()
-    return text if name == "head" else "".join(line for line in text.splitlines(keepends=True) if not line.startswith("# SPDX-"))
+    return text if name in ("head", "dry_head") else "".join(line for line in text.splitlines(keepends=True) if not line.startswith("# SPDX-"))
 
 
 def script_text(kind):
@@ -79,32 +82,65 @@ def script_text(kind):
     return text.replace("@WALLS@\n", part("walls") + "\n").replace("@GRAINS@\n", part("grains")) + part("tail")
 
 
-def write(layout, folder):
-    """Makes the folder of the case, whole or not at all."""
-    kind = layout.wishes.kind
+@contextlib.contextmanager
+def draft_of(folder):
+    """A folder to fill, which gets its name when it is whole."""
     folder = pathlib.Path(folder)
     if os.path.lexists(folder):
         raise Failure(f"'{folder}' exists already: give another name")
     draft = folder.with_name(f"{folder.name}.draft-{os.getpid()}")
     try:
-        shutil.copytree(SCENES / "new" / "fluid", draft)
-        for field, lines in ENDS[kind].items():
-            path = draft / "0" / field
-            path.write_text(path.read_text().replace("@ENDS@", "\n    ".join(lines)))
-        shipped = CASES / ("tomren-section" if kind == "section" else "tomren-injection")
-        for name in ("fvSchemes", "fvSolution", "decomposeParDict"):
-            shutil.copy(shipped / "system" / name, draft / "system")
-        shutil.copy(shipped / "run", draft)
+        yield draft
+        shutil.copy(CASES / "tomren-section" / "run", draft)
         (draft / ".eccentra-bin").write_text(f"{BUILD / 'bin'}\n")
-        if kind == "well":
-            (draft / "constant" / "flowProperties").unlink()
-            coupling = draft / "constant" / "couplingProperties"
-            # A hole without grains has no mean diameter to take the length from.
-            coupling.write_text(coupling.read_text().replace("diffusion;\n", "diffusion;\nlength          #eval{ 3 * $:scene.diameter };\n"))
-        (draft / "scene").write_text(scene_text(layout))
-        (draft / "in.cuttings").write_text(script_text(kind))
         os.rename(draft, folder)
     except OSError as problem:
         raise Failure(f"'{folder}' cannot be made ({problem.strerror}): give another folder") from None
     finally:
         shutil.rmtree(draft, ignore_errors=True)
+
+
+def copy_system(case, draft):
+    """Schemes and solvers of a case that is shipped."""
+    for name in ("fvSchemes", "fvSolution", "decomposeParDict"):
+        shutil.copy(CASES / case / "system" / name, draft / "system")
+
+
+def write(layout, folder):
+    """Makes the folder of a section or a well."""
+    kind = layout.wishes.kind
+    with draft_of(folder) as draft:
+        shutil.copytree(SCENES / "new" / "fluid", draft)
+        for field, lines in ENDS[kind].items():
+            path = draft / "0" / field
+            path.write_text(path.read_text().replace("@ENDS@", "\n    ".join(lines)))
+        copy_system("tomren-section" if kind == "section" else "tomren-injection", draft)
+        if kind == "well":
+            (draft / "constant" / "flowProperties").unlink()
+            coupling = draft / "constant" / "couplingProperties"
+            # A hole without grains has no mean diameter to take the length from.
+            coupling.write_text(coupling.read_text().replace("diffusion;\n", "diffusion;\nlength          #eval{ 3 * $:scene.diameter };\n"))
+        (draft / "scene").write_text(scene_text(entries(layout)))
+        (draft / "in.cuttings").write_text(script_text(kind))
+
+
+def plan_script(kind):
+    """The DEM script of a heap, a drum or a bed."""
+    text = part("dry_head").replace("@TITLE@", TITLES[kind]).replace("@BOUNDARY@", "f p f" if kind == "drum" else "f f f")
+    if kind == "bed":
+        text = text.replace("scene           scene\n", "scene           scene\nvariable        step equal ${fluid_step}/${interval}\n")
+    text = text.replace("@BOX@\n", part(f"{kind}_box")).replace("@MATERIALS@\n", part("materials"))
+    return text + part(kind).replace("@GRAINS@\n", part("grains")).replace("@OUTPUT@\n", part("output"))
+
+
+def write_plan(plan, folder):
+    """Makes the folder of a heap, a drum or a bed."""
+    with draft_of(folder) as draft:
+        if plan.kind == "bed":
+            shutil.copytree(SCENES / "new" / "bed", draft)
+            shutil.copy(SCENES / "new" / "fluid" / "system" / "controlDict", draft / "system")
+            copy_system("tomren-section", draft)
+        else:
+            draft.mkdir()
+        (draft / "scene").write_text(scene_text(plan.entries))
+        (draft / f"in.{plan.kind}").write_text(plan_script(plan.kind))

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <regex>
 
@@ -85,6 +86,51 @@ TEST_F(OwnScene, WellOfSpheresGoesOn) {
   EXPECT_EQ(on.status, 0) << on.output;
 }
 
+// Chien's law, whose terminal velocities docs/closures.md states for this sphere.
+TEST_F(OwnScene, SaysHowFastAGrainSettles) {
+  for (const auto& [tau0, speed] : {std::pair{"0", 0.2832}, std::pair{"1", 0.2235}, std::pair{"3", 0.0933}}) {
+    const ProgramResult made = eccentra({"new", "section", "x", "--plan", "--tau0", tau0});
+    EXPECT_NEAR(printed(made.output, "settling velocity"), speed, 2e-3 * speed) << tau0 << made.output;
+  }
+  const ProgramResult held = eccentra({"new", "section", "x", "--plan", "--tau0", "6"});
+  EXPECT_EQ(printed(held.output, "settling velocity"), 0) << held.output;
+}
+
+TEST_F(OwnScene, HeapIsPouredDrawnAndGoesOn) {
+  const ProgramResult made = eccentra({"new", "heap", "h", "--shape", "cube 8", "--count", "60", "--seconds", "0.6"});
+  ASSERT_EQ(made.status, 0) << made.output;
+  const ProgramResult run = in_folder({"h/run", "--output", "r", "--wallFriction", "0.8"});
+  ASSERT_EQ(run.status, 0) << run.output;
+  EXPECT_EQ(run.output.find("WARNING"), std::string::npos) << run.output;
+  EXPECT_NE(contents(folder / "r/scene").find("wallFriction      0.8;"), std::string::npos);
+  const ProgramResult on = in_folder({"h/run", "--resume", "r", "--seconds", "0.8"});
+  ASSERT_EQ(on.status, 0) << on.output;
+  const ProgramResult report = eccentra({"report", "r", "-o", "report", "--frames", "3"});
+  ASSERT_EQ(report.status, 0) << report.output;
+  // Bodies of 6.35 mm on a floor at z = 0: no centre of mass is below it, and a heap is higher than one layer.
+  EXPECT_GT(printed(report.output, "height that 98 % of the solid is below .mm."), 6.35) << report.output;
+  for (const char* picture : {"report/scene.png", "report/strip.png"})
+    EXPECT_GT(fs::file_size(folder / picture), 10000U) << picture;
+  const ProgramResult fluid = in_folder({"h/run", "--output", "s", "--velocity", "1"});
+  EXPECT_EQ(fluid.status, 1);
+  EXPECT_NE(fluid.output.find("--velocity is not for a case without a fluid"), std::string::npos) << fluid.output;
+  EXPECT_FALSE(fs::exists(folder / "s"));
+}
+
+// A slice of a drum on two ranks, periodic along its axis.
+TEST_F(OwnScene, DrumCarriesItsFillingUp) {
+  const ProgramResult made = eccentra({"new", "drum", "d", "--shape", "cube 8", "--drum", "80mm", "--length", "25mm",
+                                       "--rpm", "30", "--fill", "0.3", "--seconds", "0.7"});
+  ASSERT_EQ(made.status, 0) << made.output;
+  EXPECT_NE(made.output.find("cascades"), std::string::npos) << "Fr = 0.04: " << made.output;
+  const ProgramResult run = in_folder({"d/run", "--output", "r", "--ranks", "2"});
+  ASSERT_EQ(run.status, 0) << run.output;
+  const ProgramResult report = eccentra({"report", "r", "--no-pictures"});
+  ASSERT_EQ(report.status, 0) << report.output;
+  const double grains = printed(contents(folder / "r/scene"), "count");
+  EXPECT_NEAR(printed(report.output, "bodies"), grains, 0) << "periodic and closed: none is lost";
+}
+
 TEST_F(OwnScene, EachWrongWordIsOneSentence) {
   struct Case {
     std::vector<std::string> words;
@@ -102,7 +148,8 @@ TEST_F(OwnScene, EachWrongWordIsOneSentence) {
                          {{"--diameter", "90mm"}, {"--diameter", "gap"}},
                          {{"--cells", "8 32"}, {"--cells", "three whole numbers"}},
                          {{"--fluid-step", "0"}, {"--fluid-step", "'0'"}},
-                         {{"--interval", "1.5"}, {"--interval", "whole number"}}}) {
+                         {{"--interval", "1.5"}, {"--interval", "whole number"}},
+                         {{"--fill", "0.3"}, {"--fill", "eccentra new --help"}}}) {
     std::vector<std::string> words = {"new", "section", "x", "--plan"};
     words.insert(words.end(), c.words.begin(), c.words.end());
     const ProgramResult run = eccentra(words);
@@ -110,6 +157,24 @@ TEST_F(OwnScene, EachWrongWordIsOneSentence) {
     EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
     for (const std::string& word : c.said)
       EXPECT_NE(run.output.find(word), std::string::npos) << word << ": " << run.output;
+  }
+  for (const auto& [kind, option, value, remedy] :
+       std::vector<std::array<std::string, 4>>{{"heap", "--count", "0", "whole number from 1"},
+                                               {"heap", "--height", "5mm", "not above the heap"},
+                                               {"heap", "--step", "1", "critical"},
+                                               {"heap", "--stiffness", "1e6", "5 MPa"},
+                                               {"drum", "--drum", "10mm", "expected at least"},
+                                               {"drum", "--fill", "0.9", "0.6"},
+                                               {"drum", "--length", "1mm", "expected at least"},
+                                               {"bed", "--velocity", "0umf", "not a number with a unit"},
+                                               {"bed", "--width", "5mm", "expected at least"},
+                                               {"bed", "--solid-density", "900", "expected grains that sink"},
+                                               {"bed", "--fluid", "beer", "choose from"}}) {
+    const ProgramResult run = eccentra({"new", kind, "x", "--plan", option, value});
+    EXPECT_EQ(run.status, 1) << run.output;
+    EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
+    EXPECT_NE(run.output.find(option), std::string::npos) << run.output;
+    EXPECT_NE(run.output.find(remedy), std::string::npos) << option << ": " << run.output;
   }
   EXPECT_FALSE(fs::exists(folder / "x"));
   const ProgramResult unknown = eccentra({"foo"});

@@ -93,4 +93,22 @@ TEST(Profile, RefusesNoLayers) {
   EXPECT_THROW(concentration_profile(eccentric, {}, {0, 1}, 0), std::invalid_argument);
 }
 
+TEST(SolidState, WeighsByVolume) {
+  // 98 bodies of 1 at height 1, two of 1 at height 11 and 12: a weighted centre, and the top without the last 2 %.
+  Snapshot snapshot;
+  for (int i = 0; i < 100; ++i) {
+    snapshot.position.push_back({0.5, i < 98 ? 1.0 : i - 87.0, 7});
+    snapshot.velocity.push_back({3, 0, i < 98 ? 4.0 : 0.0});
+    snapshot.volume.push_back(1);
+  }
+  const SolidState state = solid_state(snapshot, {0, 1, 0});
+  EXPECT_DOUBLE_EQ(state.volume, 100);
+  EXPECT_NEAR(state.centre, (98 + 11 + 12) / 100.0, 1e-12);
+  EXPECT_DOUBLE_EQ(state.top, 1);
+  EXPECT_NEAR(state.speed, (98 * 5 + 2 * 3) / 100.0, 1e-12);
+  snapshot.volume[99] = 1e3;
+  EXPECT_DOUBLE_EQ(solid_state(snapshot, {0, 1, 0}).top, 12) << "one body that is nearly all of the solid";
+  EXPECT_DOUBLE_EQ(solid_state({}, {0, 1, 0}).volume, 0);
+}
+
 } // namespace

@@ -3,6 +3,7 @@
 // annulusReport as a program, on a case folder whose numbers are known.
 #include "report/case_data.h"
 #include "report/summary.h"
+#include "support/read_file.h"
 #include "support/run_program.h"
 
 #include <gtest/gtest.h>
@@ -107,6 +108,40 @@ TEST(Report, SaysWhatTheCaseHolds) {
   const std::string html{std::istreambuf_iterator<char>(page), {}};
   EXPECT_NE(html.find("data:image/png;base64,"), std::string::npos);
   EXPECT_EQ(html.find("http"), std::string::npos) << "the page must need no network";
+}
+
+// A run without a fluid and without an annulus: its log has the step, the walls and gravity.
+TEST(Report, DrawsARunOfLiggghtsAlone) {
+  const fs::path folder = make_case("alone");
+  fs::remove_all(folder / "system");
+  fs::remove(folder / "postProcessing/eccentra/coupling.csv");
+  fs::copy(folder / "postProcessing/eccentra/particles_100.vtk", folder / "postProcessing/eccentra/particles_200.vtk");
+  write_file(folder / "log.liggghts",
+             "Created orthogonal box = (-0.1 -0.1 -0.1) to (0.1 0.1 0.4)\ntimestep 1e-3\n"
+             "fix weight all gravity 9.81 vector 0 0 -1\n"
+             "fix floor all wall/gran/cluster model hertz primitive type 1 zplane 0\n"
+             "fix tube all wall/gran/cluster model hertz primitive type 1 zcylinder 0.06 0 0\n");
+  const ProgramResult run = report({folder, "--frames", "2", "--html"});
+  ASSERT_EQ(run.status, 0) << run.output;
+  EXPECT_NE(run.output.find("0.10..0.20"), std::string::npos) << run.output;
+  // Ten centres, from 0.01 m on every 0.03 m, at speeds from 0 to 0.9 m/s.
+  const std::string table = contents(folder / "report/summary.csv");
+  EXPECT_NE(table.find("alone,bodies,,10,"), std::string::npos) << table;
+  EXPECT_NE(table.find("alone,height of the solid's centre (bodies),mm,145,"), std::string::npos) << table;
+  EXPECT_NE(table.find("alone,height that 98 % of the solid is below,mm,280,"), std::string::npos) << table;
+  EXPECT_NE(table.find("alone,mean speed of the solid,m/s,0.45,"), std::string::npos) << table;
+  EXPECT_GT(colours(folder / "report/scene.png"), 20);
+  EXPECT_GT(colours(folder / "report/strip.png"), 20);
+  EXPECT_FALSE(fs::exists(folder / "report/beds.png"));
+  EXPECT_FALSE(fs::exists(folder / "report/charts.png"));
+  EXPECT_NE(contents(folder / "report/report.html").find("data:image/png;base64,"), std::string::npos);
+}
+
+TEST(Report, SaysWhatAFolderLacks) {
+  const fs::path folder = fresh_folder("nothing");
+  const ProgramResult run = report({folder});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.output.find("neither system/annulusMeshDict nor files of particles"), std::string::npos) << run.output;
 }
 
 TEST(Report, LeavesNoServerBehind) {

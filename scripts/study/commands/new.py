@@ -5,7 +5,8 @@ import argparse
 import pathlib
 import sys
 
-from .. import scene_files, scene_layout
+from .. import scene_bed, scene_dry, scene_files, scene_grains, scene_layout
+from ..annulus_flow import Mud
 from ..programs import Failure
 from ..units import (CONSISTENCY, DENSITY, FLOW, LENGTH, MASS_RATE, PENETRATION, SPEED, STIFFNESS, STRESS, VISCOSITY, both, positive, quantity)
 
@@ -25,46 +26,105 @@ def share(what, text, low, high):
     return value
 
 
-def parser():
-    """The command line."""
-    new = argparse.ArgumentParser(prog="eccentra new", description=__doc__, epilog=EPILOG, allow_abbrev=False)
-    new.add_argument("kind", choices=("section", "well"),
-                     help="section: periodic, filled once; well: cuttings injected at the inlet, from an empty hole")
+KINDS = {"section": "annulus, periodic, filled once", "well": "annulus with cuttings injected at the inlet", "bed": "fluidised bed in a column",
+         "heap": "poured on a floor, without a fluid", "drum": "turning drum, without a fluid"}
+# What differs between kinds: (diameter, restitution, seconds).
+DEFAULTS = {"section": ("6.35mm", "0.9", "3"), "well": ("6.35mm", "0.9", "3"), "bed": ("4mm", "0.9", "1"), "heap": ("6.35mm", "0.4", None),
+            "drum": ("6.35mm", "0.6", None)}
+
+
+class Parser(argparse.ArgumentParser):
+    """Says what is wrong in one sentence."""
+
+    def error(self, message):
+        raise Failure(f"{message}; see eccentra new --help")
+
+
+def parser(kind=None):
+    """The command line of a kind of scene, or of all."""
+    new = Parser(prog="eccentra new", description=__doc__, epilog=EPILOG, allow_abbrev=False)
+    new.add_argument("kind", choices=KINDS, help="; ".join(f"{name}: {said}" for name, said in KINDS.items()))
     new.add_argument("name", type=pathlib.Path, help="folder of the case; must not exist")
-    hole = new.add_argument_group("hole")
+    if kind in (None, "section", "well"):
+        annulus_options(new)
+    if kind in (None, "bed"):
+        bed_options(new, alone=kind is not None)
+    if kind in (None, "heap"):
+        heap = new.add_argument_group("heap")
+        heap.add_argument("--count", default="400", help="grains (default: %(default)s)")
+        heap.add_argument("--height", help="of the spout above the floor (default: by the heap)")
+    if kind in (None, "drum"):
+        drum = new.add_argument_group("drum")
+        drum.add_argument("--drum", default="150mm", help="diameter (default: %(default)s)")
+        drum.add_argument("--fill", default="0.35", help="part of the drum that is filled, up to 0.6 (default: %(default)s)")
+        if kind:
+            drum.add_argument("--rpm", default="15", help="(default: %(default)s)")
+            drum.add_argument("--length", default="40mm", help="of the slice, which repeats itself along the axis (default: %(default)s)")
+    diameter, restitution, seconds = DEFAULTS[kind or "section"]
+    grain_options(new, diameter, restitution)
+    run = new.add_argument_group("run")
+    run.add_argument("--seconds", default=seconds, help="of the run (default: 3 in an annulus, 1 of a bed, else by the scene)")
+    if kind in (None, "section", "well"):
+        run.add_argument("--cells", help="across the gap, around, along: \"8 32 20\" (default: by the grain and the gap)")
+        run.add_argument("--fluid-step", help="[s] (default: by the velocity and the cells)")
+        run.add_argument("--interval", help="DEM steps in a fluid step (default: by the critical step)")
+    if kind in (None, "heap", "drum"):
+        run.add_argument("--step", help="of the DEM [s] (default: by the critical step)")
+    run.add_argument("--seed", default="49979687", help="a prime above 10000 (default: %(default)s)")
+    run.add_argument("--plan", action="store_true", help="print the layout, write nothing")
+    return new
+
+
+def annulus_options(new):
+    """Hole and mud."""
+    hole = new.add_argument_group("hole (section, well)")
     hole.add_argument("--hole", default="8.5in", help="diameter (default: %(default)s)")
     hole.add_argument("--pipe", default="5in", help="outer diameter of the pipe (default: %(default)s)")
     hole.add_argument("--eccentricity", default="0.5", help="0 to 0.95 (default: %(default)s)")
     hole.add_argument("--inclination", default="80", help="from the vertical, 0 to 90 degrees (default: %(default)s)")
-    hole.add_argument("--rpm", default="50", help="of the pipe (default: %(default)s)")
-    hole.add_argument("--length", help="of the section or the piece of the well (default: 0.3 m, 1.2 m)")
-    mud = new.add_argument_group("mud")
+    hole.add_argument("--rpm", default="50", help="of the pipe (default: %(default)s); of a drum: 15")
+    hole.add_argument("--length", help="of the section or the piece of the well (default: 0.3 m, 1.2 m); of a drum: 40mm")
+    mud = new.add_argument_group("mud (section, well)")
     mud.add_argument("--flow", default="0.58 m/s", help="mean velocity or volume rate (default: %(default)s)")
     mud.add_argument("--tau0", help="yield stress (default: 0)")
     mud.add_argument("--k", help="consistency, Pa s^n (default: 0.28)")
     mud.add_argument("--n", help="index, 0.1 to 1.5 (default: 0.65)")
     mud.add_argument("--pv", help="plastic viscosity (cP), with --yp, instead of tau0, k and n: a Bingham mud")
     mud.add_argument("--yp", help="yield point (lbf/100ft2)")
-    mud.add_argument("--density", default="1000", help="of the mud (default: %(default)s kg/m3)")
-    grain = new.add_argument_group("cuttings")
+    mud.add_argument("--density", default="1000", help="of the mud (default: %(default)s kg/m3); of the fluid of a bed: by --fluid")
+    load = new.add_argument_group("cuttings (section, well)")
+    load.add_argument("--solid", default="0.05", help="section: part of the volume that cuttings take, up to 0.3 (default: %(default)s)")
+    load.add_argument("--rate", help="well: mass rate, or rate of penetration such as 60ft/h (default: 0.1512 kg/s)")
+
+
+def bed_options(new, alone):
+    """Column and fluid of a bed; `alone`: beside no other kind, whose options have the same names."""
+    column = new.add_argument_group("bed")
+    column.add_argument("--width", default="40mm", help="of the square column (default: %(default)s)")
+    column.add_argument("--filling", default="40mm", help="depth of the bed at rest (default: %(default)s)")
+    column.add_argument("--fluid", default="water", choices=scene_bed.FLUIDS, help="water or air at 20 degrees (default: %(default)s)")
+    if alone:
+        column.add_argument("--density", help="of the fluid, instead of that of --fluid")
+    column.add_argument("--viscosity", help="of the fluid, instead of that of --fluid")
+    column.add_argument("--velocity", default="1.5umf", help="superficial; umf: the onset of fluidisation (default: %(default)s)")
+    column.add_argument("--first-velocity", help="superficial at the start; it changes evenly to --velocity (default: the same)")
+    column.add_argument("--drag", default="gidaspow", choices=("gidaspow", "di_felice", "wen_yu"), help="law (default: %(default)s)")
+    column.add_argument("--wall-friction", help="on walls and floor (default: --friction)")
+    column.add_argument("--settling", default="0.4", help="time to pour, without the fluid [s] (default: %(default)s)")
+
+
+def grain_options(new, diameter, restitution):
+    """Of any kind of scene."""
+    grain = new.add_argument_group("grains")
     grain.add_argument("--shape", default="sphere",
-                       help="sphere, or a shape of clusters: \"cube 27\", \"disk 19\", \"file grain.clump\" (default: %(default)s)")
-    grain.add_argument("--diameter", default="6.35mm", help="of the sphere of equal volume (default: %(default)s)")
+                       help="sphere, or a shape of clusters or rounded bodies: \"cube 27\", \"disk 19\", \"smooth cube rounding 0.2\", "
+                       "\"file grain.clump\" (default: %(default)s)")
+    grain.add_argument("--diameter", default=diameter, help="of the sphere of equal volume (default: 6.35mm; bed 4mm)")
     grain.add_argument("--solid-density", default="2619", help="(default: %(default)s kg/m3)")
-    grain.add_argument("--solid", default="0.05", help="section: part of the volume that cuttings take, up to 0.3 (default: %(default)s)")
-    grain.add_argument("--rate", help="well: mass rate, or rate of penetration such as 60ft/h (default: 0.1512 kg/s)")
     grain.add_argument("--stiffness", default="5e6", help="Young's modulus in the contacts (default: %(default)s Pa)")
     grain.add_argument("--friction", default="0.5", help="0 to 2 (default: %(default)s)")
-    grain.add_argument("--restitution", default="0.9", help="0.05 to 1 (default: %(default)s)")
+    grain.add_argument("--restitution", default=restitution, help="0.05 to 1 (default: 0.9; heap 0.4, drum 0.6)")
     grain.add_argument("--rolling", default="0", help="rolling friction of spheres (cdt), 0 to 1 (default: %(default)s)")
-    run = new.add_argument_group("run")
-    run.add_argument("--seconds", default="3", help="of the coupled run (default: %(default)s)")
-    run.add_argument("--cells", help="across the gap, around, along: \"8 32 20\" (default: by the grain and the gap)")
-    run.add_argument("--fluid-step", help="[s] (default: by the velocity and the cells)")
-    run.add_argument("--interval", help="DEM steps in a fluid step (default: by the critical step)")
-    run.add_argument("--seed", default="49979687", help="a prime above 10000 (default: %(default)s)")
-    run.add_argument("--plan", action="store_true", help="print the layout, write nothing")
-    return new
 
 
 def mud_of(words):
@@ -98,7 +158,7 @@ def wishes(words):
         velocity=speed / area if kind is FLOW else speed, tau0=tau0, k=k, n=n, mud_density=positive("density", words.density, DENSITY)[0],
         shape=words.shape, diameter=positive("diameter", words.diameter, LENGTH)[0], solid_density=density,
         solid=share("solid", words.solid, 0, 0.3), rate=rate * density * 0.25 * scene_layout.PI * hole**2 if rate_kind is PENETRATION else rate,
-        stiffness=positive("stiffness", words.stiffness, STIFFNESS)[0], friction=share("friction", words.friction, 0, 2),
+        stiffness=stiffness_of(words.stiffness), friction=share("friction", words.friction, 0, 2),
         restitution=share("restitution", words.restitution, 0.05, 1), rolling=share("rolling", words.rolling, 0, 1),
         seconds=share("seconds", words.seconds, 0.01, 1e5), cells=words.cells, fluid_step=words.fluid_step, interval=words.interval, seed=words.seed)
 
@@ -115,6 +175,12 @@ def table(layout):
              ("velocity of the wide side", both("speed", found.wide_speed, "m/s"), f"{found.wide_speed / wish.velocity:.2f} of the mean"),
              ("Reynolds number", f"{found.reynolds_mean:.4g} mean, {found.reynolds_wide:.4g} wide side",
               f"laminar below {found.laminar_limit:.4g} (Dodge and Metzner)")]
+    steps = wish.seconds / found.fluid_step
+    grain = scene_grains.Grain(wish.shape, wish.diameter, wish.solid_density, wish.stiffness, wish.friction, wish.restitution, wish.rolling)
+    form = scene_grains.form_of(grain)
+    mud = Mud(wish.tau0, wish.k, wish.n, wish.mud_density)
+    lines.append(("settling velocity", f"{scene_grains.settling_speed(grain, form.sphericity, mud, 'chien'):.4g} m/s",
+                  f"of one grain in mud at rest (Chien 1994), sphericity {form.sphericity:.3f}"))
     if wish.tau0 > 0:
         lines.append(("largest grain that the mud holds", f"{1e3 * found.held_diameter:.3g} mm at rest",
                       "Beris et al. 1985: tau0 = 0.0477 (rho_p - rho_f) g d"))
@@ -123,18 +189,78 @@ def table(layout):
               ("critical DEM step", f"{found.critical_step:.3g} s", "in a bed of such grains that meet at 1 m/s or twice the velocity of the wide side"),
               ("DEM steps in a fluid step", f"{found.interval}",
                f"the DEM step is {found.fluid_step / found.interval / found.critical_step:.2f} of the critical one"),
-              ("cuttings", f"{found.count}", found.why_count)]
-    return [f"  {name:32} {value:52} {why}".rstrip() for name, value, why in lines]
+              ("cuttings", f"{found.count}", found.why_count),
+              ("expected run time", scene_grains.said_time(scene_grains.run_time(
+                  grain, found.count * (0.5 if wish.kind == "well" else 1), steps * found.interval, found.number_of_cells, steps)),
+               f"one core, {steps:.3g} fluid steps; within a factor of three")]
+    return lines_of(lines)
+
+
+def stiffness_of(text):
+    """[Pa], within what LIGGGHTS takes without its switches for other materials."""
+    value = positive("stiffness", text, STIFFNESS)[0]
+    if not 5e6 <= value <= 1e9:
+        raise Failure(f"--stiffness: '{text}' is not from 5 MPa to 1 GPa; LIGGGHTS asks for soft_particles or hard_particles in the script beyond")
+    return value
+
+
+def grain_of(words):
+    """The grain in SI."""
+    return scene_grains.Grain(
+        shape=words.shape, diameter=positive("diameter", words.diameter, LENGTH)[0], solid_density=positive("solid-density", words.solid_density, DENSITY)[0],
+        stiffness=stiffness_of(words.stiffness), friction=share("friction", words.friction, 0, 2),
+        restitution=share("restitution", words.restitution, 0.05, 1), rolling=share("rolling", words.rolling, 0, 1))
+
+
+def whole(what, text, most):
+    """A whole number from 1 on."""
+    if not (text.isascii() and text.isdigit() and 1 <= int(text) <= most):
+        raise Failure(f"--{what}: '{text}' is not a whole number from 1 to {most}")
+    return int(text)
+
+
+def plan_of(words):
+    """The layout of a heap, a drum or a bed."""
+    grain = grain_of(words)
+    seconds = None if words.seconds is None else share("seconds", words.seconds, 0.01, 1e5)
+    if words.kind == "heap":
+        height = None if words.height is None else positive("height", words.height, LENGTH)[0]
+        return scene_dry.heap(argparse.Namespace(count=whole("count", words.count, 10**7), height=height, seconds=seconds, step=words.step, seed=words.seed),
+                              grain)
+    if words.kind == "drum":
+        return scene_dry.drum(argparse.Namespace(
+            radius=0.5 * positive("drum", words.drum, LENGTH)[0], length=positive("length", words.length, LENGTH)[0], fill=share("fill", words.fill, 0.01, 0.6),
+            rpm=share("rpm", words.rpm, -1000, 1000), seconds=seconds, step=words.step, seed=words.seed), grain)
+    density, viscosity = scene_bed.FLUIDS[words.fluid]
+    if words.density is not None:
+        density = positive("density", words.density, DENSITY)[0]
+    if words.viscosity is not None:
+        viscosity = positive("viscosity", words.viscosity, VISCOSITY)[0]
+    return scene_bed.bed(argparse.Namespace(
+        width=positive("width", words.width, LENGTH)[0], filling=positive("filling", words.filling, LENGTH)[0], density=density, viscosity=viscosity,
+        velocity=words.velocity, first=words.first_velocity, seconds=seconds, settling=share("settling", words.settling, 0.01, 1e3), law=words.drag,
+        wall_friction=grain.friction if words.wall_friction is None else share("wall-friction", words.wall_friction, 0, 2), seed=words.seed), grain)
+
+
+def lines_of(rows):
+    """Rows (name, value, reason) as lines."""
+    return [f"  {name:32} {value:52} {why}".rstrip() for name, value, why in rows]
 
 
 def main():
     """Lays the scene out, prints it and writes the case."""
-    words = parser().parse_args()
-    layout = scene_layout.lay_out(wishes(words))
-    sys.stdout.write("\n".join(table(layout)) + "\n")
-    for warning in layout.warnings:
+    kind = next((word for word in sys.argv[1:] if word in KINDS), None)
+    words = parser(None if {"-h", "--help"} & set(sys.argv[1:]) else kind).parse_args()
+    if words.kind in ("section", "well"):
+        layout = scene_layout.lay_out(wishes(words))
+        lines, warnings = table(layout), layout.warnings
+    else:
+        layout = plan_of(words)
+        lines, warnings = lines_of(layout.rows), layout.warnings
+    sys.stdout.write("\n".join(lines) + "\n")
+    for warning in warnings:
         sys.stdout.write(f"warning: {warning}\n")
     if not words.plan:
-        scene_files.write(layout, words.name)
+        (scene_files.write if words.kind in ("section", "well") else scene_files.write_plan)(layout, words.name)
         sys.stdout.write(f"the case is in {words.name}; its numbers are in {words.name / 'scene'}. Run it: {words.name / 'run'}\n")
     return 0

@@ -1,0 +1,467 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Implements scene_picture.h with VTK.
+#include "report/scene_picture.h"
+
+#include "report/picture_file.h"
+#include "report/picture_parts.h"
+
+#include <vtkCubeSource.h>
+#include <vtkCutter.h>
+#include <vtkFeatureEdges.h>
+#include <vtkLeaderActor2D.h>
+#include <vtkPlane.h>
+#include <vtkPointData.h>
+#include <vtkProperty.h>
+#include <vtkProperty2D.h>
+#include <vtkRegularPolygonSource.h>
+#include <vtkRenderWindow.h>
+#include <vtkSTLReader.h>
+#include <vtkTransform.h>
+#include <vtkTransformPolyDataFilter.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace eccentra::report {
+namespace {
+
+constexpr double kPixels = 720;   // of the larger side of a column
+constexpr double kSmallest = 300; // pixels of the smaller side
+constexpr double kCaption = 100;  // pixels under a column: scale bar and gravity
+constexpr double kMargin = 1.06;  // around what is drawn
+constexpr double kTilt = 0.12;    // [rad]: a scene without a fluid is seen from a little above
+constexpr double kSlowest = 1e-2; // [m/s], of a scale of colour
+constexpr double kParallel = 0.9; // cosine from which a direction counts as that of another one
+
+double dot(const Vector& a, const Vector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Vector along(const Vector& a, double s, const Vector& b, double t) {
+  return {s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2] + t * b[2]};
+}
+Vector normalised(const Vector& a) {
+  const double length = std::sqrt(dot(a, a));
+  return {a[0] / length, a[1] / length, a[2] / length};
+}
+
+/// An upright box that grows.
+struct Bounds {
+  std::array<double, 6> sides = {1, -1, 1, -1, 1, -1};
+  bool empty() const { return sides[0] > sides[1]; }
+  void add(const std::array<double, 6>& more) {
+    if (more[0] > more[1])
+      return;
+    for (std::size_t d = 0; d < 3; ++d) {
+      sides[2 * d] = empty_ ? more[2 * d] : std::min(sides[2 * d], more[2 * d]);
+      sides[2 * d + 1] = empty_ ? more[2 * d + 1] : std::max(sides[2 * d + 1], more[2 * d + 1]);
+    }
+    empty_ = false;
+  }
+  double size(std::size_t d) const { return sides[2 * d + 1] - sides[2 * d]; }
+  Vector centre() const { return {(sides[0] + sides[1]) / 2, (sides[2] + sides[3]) / 2, (sides[4] + sides[5]) / 2}; }
+  /// Half of the extent along a unit vector.
+  double half(const Vector& direction) const {
+    return (size(0) * std::abs(direction[0]) + size(1) * std::abs(direction[1]) + size(2) * std::abs(direction[2])) / 2;
+  }
+
+ private:
+  bool empty_ = true;
+};
+
+/// What a column shows.
+struct Column {
+  const View* view = nullptr;
+  vtkSmartPointer<vtkPolyData> bodies;
+  vtkSmartPointer<vtkUnstructuredGrid> flow;
+  std::vector<vtkSmartPointer<vtkPolyData>> meshes;
+  Bounds bounds;
+  Vector up = {0, 0, 1};
+  Vector away = {0, 1, 0}; ///< the direction of sight, across `up`
+  Vector right = {1, 0, 0};
+  double tilt = 0;
+  double half_width = 0, half_height = 0; ///< [m] of the picture
+};
+
+/// Of all but the outermost bodies, which may have rolled far away; with the largest radius around the centres.
+std::array<double, 6> bounds_of_bodies(vtkPolyData& bodies) {
+  std::array<double, 6> sides = {1, -1, 1, -1, 1, -1};
+  const vtkIdType count = bodies.GetNumberOfPoints();
+  if (count == 0)
+    return sides;
+  double largest = 0;
+  if (vtkDataArray* radii = bodies.GetPointData()->GetArray("radius"))
+    largest = radii->GetRange()[1];
+  constexpr double outside = 0.03; // of all, on each side
+  const auto skipped = static_cast<std::ptrdiff_t>(outside * static_cast<double>(count));
+  for (std::size_t d = 0; d < 3; ++d) {
+    std::vector<double> places;
+    for (vtkIdType i = 0; i < count; ++i)
+      places.push_back(bodies.GetPoint(i)[d]);
+    std::nth_element(places.begin(), places.begin() + skipped, places.end());
+    sides[2 * d] = places[static_cast<std::size_t>(skipped)] - largest;
+    std::nth_element(places.begin(), places.end() - 1 - skipped, places.end());
+    sides[2 * d + 1] = *(places.end() - 1 - skipped) + largest;
+  }
+  return sides;
+}
+
+vtkSmartPointer<vtkPolyData> read_mesh(const Case& data, const WallMesh& mesh) {
+  const std::filesystem::path file = mesh.file.is_absolute() ? mesh.file : data.folder / mesh.file;
+  if (!std::filesystem::is_regular_file(file))
+    throw std::runtime_error(file.string() +
+                             ": cannot be read: log.liggghts names it as the mesh of a wall; keep it in "
+                             "the case's folder");
+  const auto reader = vtkSmartPointer<vtkSTLReader>::New();
+  reader->SetFileName(file.c_str());
+  const auto transform = vtkSmartPointer<vtkTransform>::New();
+  transform->PostMultiply();
+  transform->Scale(mesh.scale, mesh.scale, mesh.scale);
+  transform->Translate(mesh.move.data());
+  const auto moved = vtkSmartPointer<vtkTransformPolyDataFilter>::New();
+  moved->SetTransform(transform);
+  moved->SetInputConnection(reader->GetOutputPort());
+  moved->Update();
+  return moved->GetOutput();
+}
+
+/// Walls enlarge the bounds of the bodies; a cylinder does so across its axis.
+void add_walls_to(Bounds& bounds, const Case& data, const std::vector<vtkSmartPointer<vtkPolyData>>& meshes) {
+  const Bounds bodies = bounds;
+  for (const auto& [id, wall] : data.dem.walls) {
+    if (wall.kind != Wall::Kind::cylinder)
+      continue;
+    std::array<double, 6> sides{};
+    for (std::size_t d = 0; d < 3; ++d) {
+      const bool axis = std::abs(wall.axis[d]) > kParallel;
+      sides[2 * d] = axis ? bodies.sides[2 * d] : wall.point[d] - wall.radius;
+      sides[2 * d + 1] = axis ? bodies.sides[2 * d + 1] : wall.point[d] + wall.radius;
+    }
+    bounds.add(sides);
+  }
+  for (const auto& mesh : meshes) {
+    std::array<double, 6> sides{};
+    mesh->GetBounds(sides.data());
+    bounds.add(sides);
+  }
+}
+
+/// The axis of a cylinder that lies and is wider than long, or nothing.
+const Wall* drum_of(const Column& column) {
+  for (const auto& [id, wall] : column.view->data->dem.walls)
+    if (wall.kind == Wall::Kind::cylinder && std::abs(dot(wall.axis, column.up)) < 1 - kParallel &&
+        2 * wall.radius > 2 * column.bounds.half(wall.axis))
+      return &wall;
+  return nullptr;
+}
+
+void choose_sight(Column& column) {
+  const Vector& g = column.view->data->dem.gravity;
+  if (dot(g, g) > 0)
+    column.up = normalised({-g[0], -g[1], -g[2]});
+  const Wall* drum = drum_of(column);
+  Vector sight = {0, 0, 0};
+  if (drum != nullptr) {
+    sight = drum->axis;
+  } else {
+    double shortest = 0;
+    for (const std::size_t d : {1U, 0U, 2U}) { // along y where sides are equal
+      Vector axis = {0, 0, 0};
+      axis[d] = 1;
+      if (std::abs(dot(axis, column.up)) > kParallel)
+        continue;
+      if (shortest == 0 || column.bounds.size(d) < 0.999 * shortest) {
+        shortest = column.bounds.size(d);
+        sight = axis;
+      }
+    }
+  }
+  column.away = normalised(along(sight, 1, column.up, -dot(sight, column.up)));
+  column.right = cross(column.away, column.up);
+  column.tilt = drum == nullptr && column.flow == nullptr ? kTilt : 0;
+  const double depth = column.bounds.half(column.away);
+  column.half_width = kMargin * column.bounds.half(column.right);
+  column.half_height =
+      kMargin * (column.bounds.half(column.up) * std::cos(column.tilt) + depth * std::sin(column.tilt));
+}
+
+Column column_of(const View& view) {
+  Column column;
+  column.view = &view;
+  const Case& data = *view.data;
+  column.bodies = vtkSmartPointer<vtkPolyData>::New();
+  if (!data.spheres.empty())
+    column.bodies = with_speed(read_points(data.spheres.at(view.file).path));
+  column.flow = read_flow(data.folder, time_of(data, data.spheres.at(view.file)));
+  for (const WallMesh& mesh : data.dem.meshes)
+    column.meshes.push_back(read_mesh(data, mesh));
+  column.bounds.add(bounds_of_bodies(*column.bodies));
+  add_walls_to(column.bounds, data, column.meshes);
+  if (column.flow != nullptr) {
+    std::array<double, 6> sides{};
+    column.flow->GetBounds(sides.data());
+    column.bounds.add(sides);
+  }
+  return column;
+}
+
+void add_outline(vtkRenderer& renderer, vtkAlgorithmOutput* geometry) {
+  const auto actor = plain_actor(geometry, 0.25);
+  actor->GetProperty()->SetLineWidth(3);
+  actor->GetProperty()->LightingOff();
+  renderer.AddActor(actor);
+}
+
+void add_wall(vtkRenderer& renderer, const Column& column, const Wall& wall) {
+  const Bounds& bounds = column.bounds;
+  if (wall.kind == Wall::Kind::plane) {
+    if (std::abs(dot(wall.axis, column.away)) > kParallel)
+      return; // before or behind everything
+    const auto box = vtkSmartPointer<vtkCubeSource>::New();
+    constexpr double around = 1e-3; // of the size: a plane on the bounds' own side is cut, too
+    std::array<double, 6> sides = bounds.sides;
+    for (std::size_t d = 0; d < 3; ++d) {
+      const double more = around * bounds.half(column.right) + 1e-9;
+      sides[2 * d] -= more;
+      sides[2 * d + 1] += more;
+    }
+    box->SetBounds(sides.data());
+    const auto plane = vtkSmartPointer<vtkPlane>::New();
+    plane->SetOrigin(wall.point.data());
+    plane->SetNormal(wall.axis.data());
+    const auto cut = vtkSmartPointer<vtkCutter>::New();
+    cut->SetInputConnection(box->GetOutputPort());
+    cut->SetCutFunction(plane);
+    add_outline(renderer, cut->GetOutputPort());
+    return;
+  }
+  const double half = bounds.half(wall.axis);
+  const Vector middle = along(wall.point, 1, wall.axis, dot(along(bounds.centre(), 1, wall.point, -1), wall.axis));
+  for (const double end : {-half, half}) {
+    const Vector centre = along(middle, 1, wall.axis, end);
+    const auto circle = vtkSmartPointer<vtkRegularPolygonSource>::New();
+    circle->SetNumberOfSides(180);
+    circle->SetRadius(wall.radius);
+    circle->SetCenter(centre.data());
+    circle->SetNormal(wall.axis.data());
+    circle->GeneratePolygonOff();
+    add_outline(renderer, circle->GetOutputPort());
+  }
+  const Vector side = cross(wall.axis, column.away);
+  if (dot(side, side) < 1 - kParallel * kParallel)
+    return; // seen along its axis
+  for (const double sign : {-wall.radius, wall.radius}) {
+    const Vector foot = along(middle, 1, normalised(side), sign);
+    add_line(renderer, along(foot, 1, wall.axis, -half), along(foot, 1, wall.axis, half));
+  }
+}
+
+void add_mesh(vtkRenderer& renderer, vtkPolyData* mesh) {
+  const auto surface = vtkSmartPointer<vtkTransformPolyDataFilter>::New();
+  surface->SetTransform(vtkSmartPointer<vtkTransform>::New());
+  surface->SetInputData(mesh);
+  const auto glass = plain_actor(surface->GetOutputPort(), 0.55);
+  constexpr double opacity = 0.15;
+  glass->GetProperty()->SetOpacity(opacity);
+  glass->GetProperty()->LightingOff();
+  renderer.AddActor(glass);
+  const auto edges = vtkSmartPointer<vtkFeatureEdges>::New();
+  edges->SetInputData(mesh);
+  edges->ManifoldEdgesOff();
+  edges->NonManifoldEdgesOff();
+  edges->ColoringOff();
+  constexpr double sharp = 40; // degrees
+  edges->SetFeatureAngle(sharp);
+  add_outline(renderer, edges->GetOutputPort());
+}
+
+/// 1, 2 or 5 times a power of ten: the longest one up to `limit`.
+double round_length(double limit) {
+  const double digit = std::pow(10.0, std::floor(std::log10(limit)));
+  constexpr double one_digit = 1 + 1e-9;
+  for (const double step : {5.0, 2.0})
+    if (step * digit <= limit * one_digit)
+      return step * digit;
+  return digit;
+}
+
+void add_leader(vtkRenderer& renderer, double x0, double y0, double x1, double y1, bool arrow) {
+  const auto leader = vtkSmartPointer<vtkLeaderActor2D>::New();
+  leader->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+  leader->GetPosition2Coordinate()->SetCoordinateSystemToNormalizedViewport();
+  leader->GetPosition2Coordinate()->SetReferenceCoordinate(nullptr);
+  leader->SetPosition(x0, y0);
+  leader->SetPosition2(x1, y1);
+  if (arrow)
+    leader->SetArrowPlacementToPoint2();
+  else
+    leader->SetArrowPlacementToNone();
+  leader->SetArrowStyleToFilled();
+  leader->GetProperty()->SetColor(0, 0, 0);
+  leader->GetProperty()->SetLineWidth(4);
+  renderer.AddViewProp(leader);
+}
+
+/// A bar of a round length, and gravity where the script has it; `pixels` of the viewport's width.
+void add_scales(vtkRenderer& renderer, const Column& column, double pixels_per_metre, double pixels) {
+  constexpr double share = 0.4;
+  const double length = round_length(share * 2 * column.half_width);
+  const double part = length * pixels_per_metre / pixels;
+  constexpr double left = 0.08, height = 0.72;
+  add_leader(renderer, left, height, left + part, height, false);
+  add_text(renderer, length < 1 ? fmt::format("{:.3g} mm", 1e3 * length) : fmt::format("{:.3g} m", length), kTextSize,
+           left + part / 2, 0.36);
+  const Vector& g = column.view->data->dem.gravity;
+  if (!(dot(g, g) > 0))
+    return;
+  constexpr double right = 0.9;
+  add_leader(renderer, right, 0.9, right, 0.25, true);
+  add_text(renderer, "g", kTextSize, right - 22 / pixels, 0.6);
+}
+
+void draw_column(vtkRenderer& renderer, const Column& column, const Colours& colours, double half_height) {
+  const Vector centre = column.bounds.centre();
+  if (column.flow != nullptr)
+    renderer.AddActor(flow_slice(*column.flow, colours, centre, column.away));
+  const bool cut = column.flow != nullptr;
+  add_bodies(renderer, *column.bodies, colours,
+             [&](const Vector& p) { return !cut || dot(along(p, 1, centre, -1), column.away) < 0; });
+  for (const auto& [id, wall] : column.view->data->dem.walls)
+    add_wall(renderer, column, wall);
+  for (const auto& mesh : column.meshes)
+    add_mesh(renderer, mesh);
+  const double far = 10 * (column.half_width + column.half_height);
+  const Vector from =
+      along(along(column.away, -1, column.up, 0), far * std::cos(column.tilt), column.up, far * std::sin(column.tilt));
+  look(renderer, centre, from, column.up, half_height);
+}
+
+/// Speeds that set the scales of colour.
+Colours colours_of(const std::vector<Column>& columns) {
+  std::vector<double> speeds;
+  double fluid = kSlowest;
+  for (const Column& column : columns) {
+    if (vtkDataArray* speed = column.bodies->GetPointData()->GetArray("speed"))
+      for (vtkIdType i = 0; i < speed->GetNumberOfTuples(); ++i)
+        speeds.push_back(speed->GetTuple1(i));
+    if (column.flow != nullptr) {
+      std::array<double, 2> range{};
+      column.flow->GetPointData()->GetArray("U")->GetRange(range.data(), -1); // of the magnitude
+      fluid = std::max(fluid, range[1]);
+    }
+  }
+  return make_colours(std::max(nearly_largest(speeds), kSlowest), fluid);
+}
+
+std::string caption_of(const Case& data, const ParticleFile& file) {
+  const double time = time_of(data, file);
+  return time < 0 ? fmt::format("step {}", file.step) : fmt::format("t = {:.3g} s", time);
+}
+
+} // namespace
+
+double time_of(const Case& data, const ParticleFile& file) {
+  if (!(data.dem.time_step > 0))
+    return -1;
+  if (data.run.rows() > 0 && !data.bodies.empty()) // the script may have poured before the flow began
+    return std::max(0.0, data.run.columns.at("time").back() -
+                             static_cast<double>(data.bodies.back().step - file.step) * data.dem.time_step);
+  return static_cast<double>(file.step) * data.dem.time_step;
+}
+
+std::vector<View> last_views(const std::vector<Case>& cases) {
+  std::vector<View> views;
+  for (const Case& data : cases) {
+    if (data.spheres.empty())
+      throw std::runtime_error(data.folder.string() + ": no files of particles: dump cluster/vtk or custom/vtk to "
+                                                      "postProcessing/eccentra/grains_*.vtp or particles_*.vtk");
+    views.push_back({&data, data.spheres.size() - 1, data.name + ", " + caption_of(data, data.spheres.back())});
+  }
+  return views;
+}
+
+std::vector<View> strip(const Case& data, std::size_t count) {
+  if (count == 0)
+    throw std::invalid_argument("a strip of 0 pictures: give 1 or more");
+  if (data.spheres.empty())
+    return last_views({data});
+  std::vector<View> views;
+  const std::size_t last = data.spheres.size() - 1;
+  count = std::min(count, last + 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t file = count == 1 ? last : i * last / (count - 1);
+    views.push_back({&data, file, caption_of(data, data.spheres[file])});
+  }
+  return views;
+}
+
+void draw_views(const std::vector<View>& views, const std::filesystem::path& file) {
+  std::vector<Column> columns;
+  for (const View& view : views)
+    columns.push_back(column_of(view));
+  for (Column& column : columns) // pictures of one case have one scale
+    for (const Column& other : columns)
+      if (&other != &column && other.view->data == column.view->data)
+        column.bounds.add(other.bounds.sides);
+  for (Column& column : columns)
+    choose_sight(column);
+  const Colours colours = colours_of(columns);
+
+  double height = kSmallest;
+  std::vector<double> scales; // pixels per metre
+  for (const Column& column : columns) {
+    scales.push_back(kPixels / (2 * std::max(column.half_width, column.half_height)));
+    height = std::max(height, 2 * column.half_height * scales.back());
+  }
+  double width = 0;
+  std::vector<double> widths;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    widths.push_back(std::max(kSmallest, 2 * columns[i].half_width * scales[i]));
+    width += widths.back();
+  }
+  bool fluid = false;
+  for (const Column& column : columns)
+    fluid = fluid || column.flow != nullptr;
+  const double least_width = fluid ? 1000 : 640; // room for the numbers of the scales of colour
+  const double stretch = std::max(1.0, least_width / width);
+  for (double& w : widths)
+    w *= stretch;
+  width *= stretch;
+  const double bottom = kLegendPixels + kCaption;
+  const double total = bottom + height + kTitlePixels;
+
+  const auto window = vtkSmartPointer<vtkRenderWindow>::New();
+  window->SetOffScreenRendering(1);
+  window->SetSize(static_cast<int>(width), static_cast<int>(total));
+  window->SetMultiSamples(8);
+  const auto viewport = [&](double x0, double x1, double y0, double y1) {
+    const auto renderer = vtkSmartPointer<vtkRenderer>::New();
+    renderer->SetBackground(1, 1, 1);
+    renderer->SetViewport(x0 / width, y0 / total, x1 / width, y1 / total);
+    window->AddRenderer(renderer);
+    return renderer;
+  };
+  double left = 0;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const double right = left + widths[i];
+    draw_column(*viewport(left, right, bottom, bottom + height), columns[i], colours, height / 2 / scales[i]);
+    add_scales(*viewport(left, right, kLegendPixels, bottom), columns[i], scales[i], widths[i]);
+    add_text(*viewport(left, right, bottom + height, total), columns[i].view->caption, kTextSize + 4, 0.5, 0.4);
+    left = right;
+  }
+  const auto legend = viewport(0, width, 0, kLegendPixels);
+  add_bar(*legend, colours.bodies, "speed of the bodies [m/s]", fluid ? 0.08 : 0.18, fluid ? 0.36 : 0.64);
+  if (fluid)
+    add_bar(*legend, colours.fluid, "speed of the fluid [m/s]", 0.56, 0.36);
+  window->Render();
+  write_png(*window, file);
+}
+
+} // namespace eccentra::report
