@@ -20,6 +20,7 @@
 #include <vtkTable.h>
 #include <vtkTextProperty.h>
 
+#include <algorithm>
 #include <array>
 
 namespace eccentra::report {
@@ -113,15 +114,22 @@ void draw_charts(const std::vector<Case>& cases, const std::vector<Summary>& sum
                                 height / 2 - 2 * gap};
   };
 
-  const auto profile = chart(*view, "Solid over the height of the hole", "solid volume fraction",
-                             "height / hole diameter", quarter(0, 1), true);
-  for (std::size_t i = 0; i < summaries.size(); ++i) {
-    std::vector<double> heights;
-    for (std::size_t k = 0; k < summaries[i].profile.size(); ++k)
-      heights.push_back((static_cast<double>(k) + 0.5) / static_cast<double>(summaries[i].profile.size()));
-    line(*profile, summaries[i].name, column("fraction", summaries[i].profile), column("height", heights), i);
+  const bool annuli = std::all_of(cases.begin(), cases.end(), [](const Case& c) { return c.is_annulus; });
+  if (annuli) {
+    const auto profile = chart(*view, "Solid over the height of the hole", "solid volume fraction",
+                               "height / hole diameter", quarter(0, 1), true);
+    for (std::size_t i = 0; i < summaries.size(); ++i) {
+      std::vector<double> heights;
+      for (std::size_t k = 0; k < summaries[i].profile.size(); ++k)
+        heights.push_back((static_cast<double>(k) + 0.5) / static_cast<double>(summaries[i].profile.size()));
+      line(*profile, summaries[i].name, column("fraction", summaries[i].profile), column("height", heights), i);
+    }
+  } else {
+    const auto height = chart(*view, "Centre of the solid", "time [s]", "z [mm]", quarter(0, 1), true);
+    over_time(*height, cases, "com_z", 1000, 1);
   }
-  const auto flux = chart(*view, "Solid flux along the hole", "time [s]", "flux [1e-6 m3/s]", quarter(1, 1), false);
+  const auto flux = chart(*view, annuli ? "Solid flux along the hole" : "Solid flux along z", "time [s]",
+                          "flux [1e-6 m3/s]", quarter(1, 1), false);
   over_time(*flux, cases, "solids_flux", 1e6, 1);
   constexpr std::size_t start = 2;
   const auto gradient = chart(*view, "Pressure gradient that drives the flow", "time [s]", "pressure gradient [Pa/m]",

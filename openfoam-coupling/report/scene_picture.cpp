@@ -185,7 +185,7 @@ void choose_sight(Column& column) {
   }
   column.away = normalised(along(sight, 1, column.up, -dot(sight, column.up)));
   column.right = cross(column.away, column.up);
-  column.tilt = drum == nullptr && column.flow == nullptr ? kTilt : 0;
+  column.tilt = drum == nullptr && column.view->data->run.rows() == 0 ? kTilt : 0;
   const double depth = column.bounds.half(column.away);
   column.half_width = kMargin * column.bounds.half(column.right);
   column.half_height =
@@ -199,7 +199,8 @@ Column column_of(const View& view) {
   column.bodies = vtkSmartPointer<vtkPolyData>::New();
   if (!data.spheres.empty())
     column.bodies = with_speed(read_points(data.spheres.at(view.file).path));
-  column.flow = read_flow(data.folder, time_of(data, data.spheres.at(view.file)));
+  const double time = time_of(data, data.spheres.at(view.file));
+  column.flow = read_flow(data.folder, data.dem.time_step > 0 ? std::max(0.0, time) : -1);
   for (const WallMesh& mesh : data.dem.meshes)
     column.meshes.push_back(read_mesh(data, mesh));
   column.bounds.add(bounds_of_bodies(*column.bodies));
@@ -312,7 +313,7 @@ void add_leader(vtkRenderer& renderer, double x0, double y0, double x1, double y
 /// A bar of a round length, and gravity where the script has it; `pixels` of the viewport's width.
 void add_scales(vtkRenderer& renderer, const Column& column, double pixels_per_metre, double pixels) {
   constexpr double share = 0.4;
-  const double length = round_length(share * 2 * column.half_width);
+  const double length = round_length(share * pixels / pixels_per_metre);
   const double part = length * pixels_per_metre / pixels;
   constexpr double left = 0.08, height = 0.72;
   add_leader(renderer, left, height, left + part, height, false);
@@ -362,7 +363,9 @@ Colours colours_of(const std::vector<Column>& columns) {
 
 std::string caption_of(const Case& data, const ParticleFile& file) {
   const double time = time_of(data, file);
-  return time < 0 ? fmt::format("step {}", file.step) : fmt::format("t = {:.3g} s", time);
+  if (data.dem.time_step > 0 && std::abs(time) < data.dem.time_step)
+    return "t = 0 s";
+  return !(data.dem.time_step > 0) ? fmt::format("step {}", file.step) : fmt::format("t = {:.3g} s", time);
 }
 
 } // namespace
@@ -371,8 +374,8 @@ double time_of(const Case& data, const ParticleFile& file) {
   if (!(data.dem.time_step > 0))
     return -1;
   if (data.run.rows() > 0 && !data.bodies.empty()) // the script may have poured before the flow began
-    return std::max(0.0, data.run.columns.at("time").back() -
-                             static_cast<double>(data.bodies.back().step - file.step) * data.dem.time_step);
+    return data.run.columns.at("time").back() -
+           static_cast<double>(data.bodies.back().step - file.step) * data.dem.time_step;
   return static_cast<double>(file.step) * data.dem.time_step;
 }
 
@@ -394,9 +397,13 @@ std::vector<View> strip(const Case& data, std::size_t count) {
     return last_views({data});
   std::vector<View> views;
   const std::size_t last = data.spheres.size() - 1;
-  count = std::min(count, last + 1);
+  std::size_t first = 0;
+  if (data.dem.time_step > 0)
+    while (first < last && time_of(data, data.spheres[first]) < -data.dem.time_step)
+      ++first;
+  count = std::min(count, last - first + 1);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t file = count == 1 ? last : i * last / (count - 1);
+    const std::size_t file = count == 1 ? last : first + i * (last - first) / (count - 1);
     views.push_back({&data, file, caption_of(data, data.spheres[file])});
   }
   return views;

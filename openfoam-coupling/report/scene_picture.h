@@ -20,11 +20,12 @@ struct View {
 /// The last file of each case, with its name, time and number of bodies.
 std::vector<View> last_views(const std::vector<Case>& cases);
 
-/// `count` files of one case, evenly from the first to the last. Throws std::invalid_argument if `count` is 0.
+/// `count` files of one case, evenly from the first to the last; with a fluid from its start on. Throws
+/// std::invalid_argument if `count` is 0.
 std::vector<View> strip(const Case& data, std::size_t count);
 
-/// Time [s] of a file of particles: from the time step of the log, and in a coupled run from the end of coupling.csv;
-/// negative if unknown.
+/// Time [s] of a file of particles: from the time step of the log, and in a coupled run from the end of coupling.csv,
+/// so that it is negative before the flow begins. -1 if the log does not say the time step.
 double time_of(const Case& data, const ParticleFile& file);
 
 /// The columns beside each other, gravity downwards, with one scale of length for those of one case. A turning drum is

@@ -15,7 +15,7 @@ from .units import SPEED, positive
 
 FLUIDS = {"water": (998.0, 1.0e-3), "air": (1.2, 1.8e-5)}  # density [kg/m3], viscosity [Pa s], at 20 degrees Celsius
 LARGEST_STEP = 2e-3  # [s], of the fluid
-CELL = 2.0  # grains across a cell, about
+CELL = 1.6  # grains across a cell, about: wider cells smear the floor and the top of the bed
 ENTRY = 4  # cells of fluid alone below the floor
 
 
@@ -92,7 +92,8 @@ def bed(wish, grain):
                ("fluidDensity", wish.density, "[kg/m3]"), ("fluidViscosity", wish.viscosity, "[Pa s]"),
                ("velocityFirst", float(f"{first:.4g}"), "superficial, at the start [m/s]"),
                ("velocityLast", float(f"{last:.4g}"), "and at the end; in between it changes evenly [m/s]"), None,
-               *scene_grains.entries(grain), ("wallFriction", wish.wall_friction, "on the walls and the floor"),
+               *scene_grains.entries(grain), ("sphericity", float(f"{form.sphericity:.5g}"), "of the shape; only the comparison with Ergun reads it"),
+               ("wallFriction", wish.wall_friction, "on the walls and the floor"),
                ("effects", f'"drag {wish.law} pressure_gradient on"', "docs/fix_fluid_force.md"), ("count", count, "grains"),
                ("settling", settling, "time to fall and settle, before the fluid flows [s]"), ("seed", wish.seed, "a prime above 10000"), None,
                ("seconds", wish.seconds, "of the coupled run"), ("fluid_step", fluid_step, "[s]"), ("interval", interval, "DEM steps in a fluid step"),

@@ -17,8 +17,8 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("ECCENTRA_BUILD", ROOT / "build"))
 sys.path.insert(0, str(ROOT / "scripts"))
-from study import (charts, convergence, ladders, level_study, levels, loop_data, measures, power, programs, runs, section,  # noqa: E402
-                   shape_levels, tables, timing, truth_chart, user_scene, wedge)
+from study import (charts, convergence, ladders, level_study, levels, loop_data, measures, patch_walls, power, programs, runs,  # noqa: E402
+                   scene_bed, scene_grains, section, shape_levels, tables, timing, truth_chart, user_scene, wedge)
 from study.commands import creeping_drag  # noqa: E402
 
 
@@ -144,6 +144,78 @@ class Power(unittest.TestCase):
         self.assertEqual(power.seeds_wanted(values, "true", 12), {"a": 12, "true": 12})
         self.assertEqual(power.seeds_wanted({"a": {1: 3.0}, "true": {1: 3.0}}, "true", 12), {"a": 1, "true": 1})
         self.assertEqual(power.seeds_wanted({"a": {1: 3.0, 2: 3.0}, "true": {1: 0.0, 2: 0.0}}, "true", 12), {"a": 2, "true": 2})
+
+
+def quad(a, b, c, d):
+    """A quadrangle as two triangles."""
+    return [(a, b, c), (a, c, d)]
+
+
+class Walls(unittest.TestCase):
+    """Walls from the triangles of patches."""
+
+    @staticmethod
+    def tube(parts, radius, low, high, turn=2 * math.pi):
+        """A cylinder along y about x = 3, z = 2."""
+        at = [(3 + radius * math.cos(turn * i / parts), 2 + radius * math.sin(turn * i / parts)) for i in range(parts + 1)]
+        return [t for (x, z), (u, w) in zip(at, at[1:]) for t in quad((x, low, z), (u, low, w), (u, high, w), (x, high, z))]
+
+    def test_box_is_planes_that_face_the_mesh(self):
+        g = [(x, y, z) for z in (0, 1) for y in (0, 2) for x in (0, 3)]
+        sides = patch_walls.Surface("sides", quad(g[0], g[1], g[5], g[4]) + quad(g[2], g[3], g[7], g[6]))
+        floor = patch_walls.Surface("floor", quad(g[0], g[1], g[3], g[2]))
+        planes = patch_walls.walls_of(sides, [sides, floor], patch_walls.size_of([sides, floor]))
+        self.assertEqual(sorted(abs(p.normal[1]) for p in planes), [1, 1])
+        self.assertEqual(sorted(p.point[1] for p in planes), [0, 2])
+
+    def test_plane_with_mesh_behind_it_stays_a_mesh(self):
+        step = patch_walls.Surface("step", quad((0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)))
+        rest = patch_walls.Surface("rest", quad((1, 0, 0), (2, 0, 0), (2, 1, 0), (1, 1, 0)) + quad((0, 0, 2), (2, 0, 2), (2, 1, 2), (0, 1, 2)))
+        wall, = patch_walls.walls_of(step, [step, rest], 3.0)
+        self.assertEqual(wall.triangles, step.triangles)
+
+    def test_cylinder_over_the_whole_length(self):
+        tube = patch_walls.Surface("tube", self.tube(24, 0.5, -1, 4))
+        wall, = patch_walls.walls_of(tube, [tube], patch_walls.size_of([tube]))
+        self.assertEqual(wall.direction, 1)
+        self.assertAlmostEqual(wall.radius, 0.5)
+        self.assertAlmostEqual(wall.centre[0], 2)  # in cyclic order behind y: z, x
+        self.assertAlmostEqual(wall.centre[1], 3)
+
+    def test_part_of_a_cylinder_stays_a_mesh(self):
+        tube = patch_walls.Surface("tube", self.tube(24, 0.5, -1, 4))
+        for part in (self.tube(24, 0.5, -1, 3), self.tube(24, 0.5, -1, 4, math.pi)):
+            wall, = patch_walls.walls_of(patch_walls.Surface("part", part), [tube], 5.0)
+            self.assertEqual(wall.triangles, part)
+        cone = [tuple((x * (1 + 0.01 * y), y, z) for x, y, z in t) for t in self.tube(24, 0.5, -1, 4)]
+        wall, = patch_walls.walls_of(patch_walls.Surface("cone", cone), [tube], 5.0)
+        self.assertEqual(wall.triangles, cone)
+
+    def test_stl_there_and_back(self):
+        tube = patch_walls.Surface("tube", self.tube(5, 0.5, -1, 4))
+        again, = patch_walls.read_stl(patch_walls.stl_text(tube))
+        self.assertEqual(again.name, "tube")
+        for a, b in zip(again.points(), tube.points()):
+            for x, y in zip(a, b):
+                self.assertAlmostEqual(x, y, places=11)
+
+
+class Beds(unittest.TestCase):
+    """Numbers that eccentra new prints."""
+
+    def test_onset_is_where_ergun_carries_the_weight(self):
+        bed = scene_bed.Packed(0.4, 2e-3, 0.9, 1e-3, 1000.0)
+        onset = bed.onset(2600.0)
+        self.assertAlmostEqual(bed.gradient(onset) / (0.6 * 1600 * 9.81), 1, places=9)
+        # Kozeny's limit of a viscous fluid, and Burke's and Plummer's of inertia, in closed form.
+        thick = scene_bed.Packed(0.4, 2e-3, 1.0, 10.0, 1000.0)
+        self.assertAlmostEqual(thick.onset(2600.0) / (1600 * 9.81 * 0.4**3 * 4e-6 / (150 * 10 * 0.6)), 1, places=4)
+        thin = scene_bed.Packed(0.4, 2e-3, 1.0, 1e-9, 1000.0)
+        self.assertAlmostEqual(thin.onset(2600.0) / math.sqrt(1600 * 9.81 * 0.4**3 * 2e-3 / (1.75 * 1000)), 1, places=4)
+
+    def test_step_is_rounded_down(self):
+        for value, rounded in ((2.99e-5, 2.9e-5), (3e-5, 3e-5), (9.999e-4, 9.9e-4), (1.0, 1.0)):
+            self.assertAlmostEqual(scene_grains.two_digits_down(value) / rounded, 1)
 
 
 class Ladders(unittest.TestCase):
