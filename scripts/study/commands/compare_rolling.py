@@ -14,13 +14,16 @@ from ..programs import CASES, digest_of, run
 
 TORSION_OFF = "torsionTorque off"
 ALL_SEEDS = 8
+# Coefficients of eq (19) at each contact of a cluster: what hysteresis adds to shape.
+HYSTERESIS = (0.05, 0.1, 0.2, 0.3)
 
 
 class Model:
-    """A rolling model as a user types it; `kind` says which coefficient it takes, `scenes` where it runs (None: in all)."""
+    """A rolling model as a user types it; `kind` says which coefficient it takes, `scenes` where it runs (None: in all); mu: of a
+    cluster's contacts, beside its shape."""
 
-    def __init__(self, word, words="tangential_damping on", wall_words=None, kind="stock", scenes=None):
-        self.word, self.words, self.kind, self.scenes = word, words, kind, scenes
+    def __init__(self, word, words="tangential_damping on", wall_words=None, kind="stock", scenes=None, mu=0):
+        self.word, self.words, self.kind, self.scenes, self.mu = word, words, kind, scenes, mu
         self.wall_words = wall_words or words
 
     def runs_in(self, scene):
@@ -30,6 +33,7 @@ class Model:
 def models(shape):
     return {
         "cluster": Model("off", kind="cluster"),
+        **{f"cluster-{mu}": Model("shape", "form limited", kind="cluster", mu=mu) for mu in HYSTERESIS},
         "off": Model("off"),
         "cdt": Model("cdt", TORSION_OFF),
         "cdt-stock-wall": Model("cdt", TORSION_OFF, scenes=("drum",)),
@@ -71,7 +75,7 @@ def variables_of(chosen, scene, name, seed):
     return {
         "seed": seed, "bodies": quick if chosen.quick else full, "shape": chosen.shape, "clusters": int(model.kind == "cluster"),
         "rolling": model.word, "words": model.words, "wall_words": model.wall_words,
-        "mu_r": 0 if model.kind in ("shape", "cluster") else chosen.mu, "mu_shape": chosen.mu if model.kind == "shape" else 0,
+        "mu_r": model.mu if model.kind == "cluster" else 0 if model.kind == "shape" else chosen.mu, "mu_shape": chosen.mu if model.kind == "shape" else 0,
         "turning_wall": "wall/gran" if stock_wall else "wall/gran/cluster",
         # the stock wall takes omega x centre: the contact is a radius further out
         "turn": f"shear x {3.1416 * 0.035 / (0.035 - RADIUS):.6f}" if stock_wall else "rotate 3.1416",
@@ -105,7 +109,7 @@ def scene_job(chosen, scene, name, seed, program="eccentra-dem", turn=None):
         return {"cpu": cpu} if turn is not None else result_of(scene, frames.read_frames(folder / "frames.dump"), folder, cpu, seed)
 
     return runs.Job(f"{scene} {name} seed {seed}" if turn is None else f"{scene} {name} {program}, turn {turn + 1}", inputs, work,
-                    (20 if name == "cluster" else 3) * (0.1 if variables["bodies"] == 1 else 1))
+                    (20 if variables["clusters"] else 3) * (0.1 if variables["bodies"] == 1 else 1))
 
 
 def section_job(chosen, name, seed):
@@ -128,7 +132,7 @@ def section_job(chosen, name, seed):
                       *programs.options(here=SCENE, **words)], folder, folder / "out.txt")
         return result_of("section", frames.read_frames(folder / "run" / "frames.dump"), folder / "run", cpu, seed)
 
-    return runs.Job(f"section {name} seed {seed}", inputs, work, 40 if name == "cluster" else 15)
+    return runs.Job(f"section {name} seed {seed}", inputs, work, 40 if words.get("shape") else 15)
 
 
 # Of a picture of a scene: left, right, low, high [m], which coordinate is up, and what of walls is seen.
@@ -229,18 +233,21 @@ def default_seeds(scene, quick):
 
 def main():
     names = list(models("cube 64"))
+    few = [name for name in names if not name.startswith("cluster-")]
     parser = options.Parser(
         "compare-rolling", "Compares rolling models with clusters: " + "; ".join(f"{k}: {v[0]} [{v[1]}]" for k, v in SCENES.items()),
         "fewer bodies, 2 seeds (8 for single bodies): within 5 minutes on 2 cores",
         epilog="Writes comparison.txt, comparison.csv, charts and pictures (SVG), cost.txt.")
     parser.add_argument("--scenes", action=options.Words, choices=list(SCENES), default=list(SCENES), help="default: all")
-    parser.add_argument("--models", action=options.Words, choices=names, default=names, help="default: all")
+    parser.add_argument("--models", action=options.Words, choices=names,
+                        help="default: all, with --quick and --cost without clusters that have rolling friction, too")
     parser.add_argument("--seeds", type=int, help="runs per scene and model (default 4, with --quick and in the section 2; single bodies always 8)")
     parser.add_argument("--mu", type=float, default=0.32, help="rolling friction coefficient (default 0.32, the paper's for cubes)")
     parser.add_argument("--shape", default="cube 64", help="shape of clusters and of eccentric (default 'cube 64')")
     parser.add_argument("--cost", action="store_true", help="only measure what the models cost, one at a time")
 
     def check(chosen):
+        chosen.models = chosen.models or (few if chosen.quick or chosen.cost else names)
         if chosen.seeds is not None and not 1 <= chosen.seeds <= ALL_SEEDS:
             parser.error(f"--seeds is {chosen.seeds}: give 1 to {ALL_SEEDS}")
         if not chosen.mu >= 0:
