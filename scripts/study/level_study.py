@@ -103,7 +103,7 @@ class Group:
 
     def models(self):
         """Levels that may stand for the reference: a body with other corners is another body."""
-        return [row for row in self.candidates() if row.level.kind != "smooth"]
+        return [row for row in self.candidates() if row.level.kind != "rounding"]
 
     def front(self):
         """Rows that no other row beats in time and deviation, and the knee among them (or None)."""
@@ -155,10 +155,15 @@ CSV_COLUMNS = ["scene", "body", "result", "unit", "level", "mean", "standard_err
 
 
 def csv_cells(group):
-    """Rows of levels.csv, which clusterShape advise reads: the last row of a scene is the reference."""
-    return [[group.scene, group.body, group.title, group.unit, row.level.name, row.value, row.error, row.runs, row.deviation, row.deviation_error,
-             row.cpu, row.wall, *(row.parts.get(part, math.nan) for part in timing.PARTS), row.step, row.critical.get("critical", math.nan),
-             row.critical.get("contacts", 0), row.failed] for row in group.rows]
+    """Rows of levels.csv, which clusterShape advise reads: the last row of a scene is the reference. Of other bodies it would take the cheapest."""
+    return [cells_of(group, row) for row in group.rows if row.level.kind != "rounding"]
+
+
+def cells_of(group, row):
+    """A row of levels.csv."""
+    return [group.scene, group.body, group.title, group.unit, row.level.name, row.value, row.error, row.runs, row.deviation, row.deviation_error,
+            row.cpu, row.wall, *(row.parts.get(part, math.nan) for part in timing.PARTS), row.step, row.critical.get("critical", math.nan),
+            row.critical.get("contacts", 0), row.failed]
 
 
 class Study:
@@ -316,6 +321,8 @@ class Study:
         (self.output / "levels.txt").write_text(text)
         print(text)
         tables.write_csv(self.output / "levels.csv", CSV_COLUMNS, cells)
+        tables.write_csv(self.output / "roundings.csv", CSV_COLUMNS, [cells_of(group, row) for group in self.groups for row in group.rows
+                                                                      if row.level.kind == "rounding" or row is group.rows[-1]])
         first = []
         for body in self.bodies:
             shown = [group for group in self.groups if group.body == body and group.judged and group.candidates()]

@@ -29,7 +29,8 @@ SMOOTH_COST = 30  # spheres of the cluster that costs as much, for the time left
 
 @dataclasses.dataclass(frozen=True)
 class Level:
-    """kind: sphere, friction (sphere with mu_shape), eccentric (sphere that cogs), cluster or smooth; shape: words of a shape;
+    """kind: sphere, friction (sphere with mu_shape), eccentric (sphere that cogs), cluster, smooth (true faces)
+    or rounding (true faces and other corners: another body); shape: words of a shape;
     mu: mu_shape; slide: coefficient of sliding friction, None for that of the scene."""
     name: str
     kind: str
@@ -40,7 +41,7 @@ class Level:
 
     def has_shape(self):
         """Whether the particle itself has the shape, and is no sphere that stands for it."""
-        return self.kind in ("cluster", "smooth")
+        return self.kind in ("cluster", "smooth", "rounding")
 
 
 def fine_disk(path, rings=4):
@@ -97,7 +98,7 @@ def smooth(body, rounding):
 def ladder_of(body, estimates, fine_file, rounding=None):
     """All levels of a body: spheres, clusters, smooth bodies of other roundings, and last the reference, smooth with `rounding`."""
     wanted = rounding or ROUNDING[body]
-    others = [smooth(body, other) for other in OTHER_ROUNDINGS[body] if other != wanted]
+    others = [dataclasses.replace(smooth(body, other), kind="rounding") for other in OTHER_ROUNDINGS[body] if other != wanted]
     return levels_of(body, estimates, fine_file) + others + [smooth(body, wanted)]
 
 

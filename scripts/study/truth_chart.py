@@ -7,9 +7,10 @@ import statistics
 
 from . import charts
 
-COLOUR = {"sphere": 7, "friction": 4, "eccentric": 3, "cluster": 0, "smooth": 2}  # of a kind of level, in charts.COLOURS
+COLOUR = {"sphere": 7, "friction": 4, "eccentric": 3, "cluster": 0, "smooth": 5, "rounding": 2}  # of a kind of level, in charts.COLOURS
 WORDS = {"sphere": "sphere", "friction": "sphere with mu_shape", "eccentric": "sphere that cogs", "cluster": "clusters of spheres",
-         "smooth": "true faces, rounder corners"}
+         "smooth": "true faces", "rounding": "true faces, other corners"}
+TRUTH = charts.COLOURS[2]  # of the reference, at zero
 NO_FORM = ("S6",)  # clusters that are no form of the body
 END = 100.0  # deviations beyond [%] stand at the edge, with an arrow and their value
 
@@ -24,10 +25,10 @@ class TruthPanel(charts.Panel):
     def draw(self, axes):
         super().draw(axes)
         axes.axhspan(0 if self.one_sided else -self.noise, self.noise, color="#e8efe8", zorder=0)
-        axes.axhline(0, color=charts.COLOURS[COLOUR["smooth"]], linewidth=1.4, zorder=1)
+        axes.axhline(0, color=TRUTH, linewidth=1.4, zorder=1)
         low, high = axes.get_ylim()
         axes.set_ylim(min(low, -0.04 * (high - low)), high)
-        axes.plot([self.truth[0]], [0], marker="D", markersize=8, color=charts.COLOURS[COLOUR["smooth"]], linestyle="", clip_on=False, zorder=5)
+        axes.plot([self.truth[0]], [0], marker="D", markersize=8, color=TRUTH, linestyle="", clip_on=False, zorder=5)
         noise = f"\nband: its noise, +- {self.noise:.1f} %" if self.noise else ""
         axes.annotate(f"\u25c6 the true body, {self.truth[1]}{noise}", (1, 1), (-4, -4), "axes fraction", "offset points", ha="right", va="top",
                       fontsize=7, color="#006b4f")

@@ -3,6 +3,7 @@
 """Tests of scripts/study: its statistics on closed forms, its store of runs, its charts, and what the scripts say of bad words."""
 import csv
 import inspect
+import json
 import math
 import os
 import pathlib
@@ -324,6 +325,14 @@ class Levels(unittest.TestCase):
         self.assertIn("Within 5 % of it, the cheapest is C27 (+2.0 +-", words)
         self.assertIn("it is 4.0 times as fast", words)
 
+    def test_a_body_with_other_corners_is_no_model(self):
+        row = lambda name, kind, value, cpu: level_study.Row(levels.Level(name, kind), value, 0.01, 3, cpu, cpu, {}, 1e-5, {})
+        group = level_study.Group("scene", "cube", "slope", "degrees", [row("C8", "cluster", 12.0, 1.0), row("smooth 0.3", "rounding", 10.1, 0.5),
+                                                                        row("smooth 0.15", "smooth", 10.0, 8.0)], True)
+        group.compare()
+        self.assertIn("the nearest is C8", group.plain_words())
+        self.assertEqual([cells[4] for cells in level_study.csv_cells(group)], ["C8", "smooth 0.15"])
+
 
 class TruthChart(unittest.TestCase):
     def rows(self, deviations):
@@ -421,6 +430,9 @@ class UserScene(unittest.TestCase):
             self.assertIn("What is not known: ", page)
             self.assertTrue((folder / "answer" / "answer.svg").is_file())
             self.assertNotIn(" s of CPU |", run("accuracy-cost", *words).stderr)  # nothing is repeated
+            advice = subprocess.run([BUILD / "bin" / "clusterShape", "advise", "hull stone.stl rounding 0.15", "--error", "5", "--data",
+                                     folder / "answer" / "levels.csv", "--json"], capture_output=True, text=True)
+            self.assertEqual(json.loads(advice.stdout)["advice"][0]["level"], "sphere", advice.stderr)  # the cheapest
 
 
 class Overall(unittest.TestCase):
