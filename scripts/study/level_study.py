@@ -25,12 +25,13 @@ RESTITUTION_DRY, RESTITUTION_SECTION = 0.5, 0.9  # of the scenes
 @dataclasses.dataclass(frozen=True)
 class Size:
     """How large a study is. seeds: of each level in a dry scene, the pilot where most_seeds is larger; most_seeds: up to which seeds are added
-    until the errors are those of power.py. section_levels: names, or mean and largest for the spheres with that mu_shape; empty: all.
-    length, cells, seconds (by inclination) and points (inclination, velocity) are those of the annulus."""
+    until the errors are those of power.py. dry_levels, section_levels: names, or those of estimates for the spheres with
+    that mu_shape; empty: all. length, cells, seconds (by inclination) and points (inclination, velocity) are those of the annulus."""
     bodies: tuple
     few_bodies: bool
     seeds: int
     most_seeds: int
+    dry_levels: tuple
     seeds_beside: int  # at most, at other velocities than CENTRAL_VELOCITY
     length: float
     cells: str
@@ -183,10 +184,11 @@ class Study:
         """Levels of a body in dry scenes, and those in the annulus; the reference last in both."""
         estimates = levels.eccentricities(self.build, body)
         everything = levels.ladder_of(body, estimates, levels.fine_disks(self.output), self.rounding)
-        chosen = [one for one in everything[:-1] if not self.names or one.name in self.names] + everything[-1:]
-        names = {f"S1 mu {estimates[n]:.2f}" if n in estimates else n if not n.startswith("eccentric") else "S1 eccentric"
-                 for n in self.size.section_levels}
-        return chosen, [one for one in chosen if not self.size.section_levels or one.name in names or one is everything[-1]]
+        reference = everything[-1]
+        named = {f"S1 mu {mu:.2f}": name for name, mu in estimates.items()} | {"S1 eccentric": "eccentric"}
+        of = lambda wanted: [one for one in everything if not wanted or one is reference or named.get(one.name, one.name) in wanted]
+        chosen = [one for one in everything if one.name in self.names or one is reference] if self.names else of(self.size.dry_levels)
+        return chosen, [one for one in of(self.size.section_levels) if not self.names or one.name in self.names or one is reference]
 
     def run(self):
         """Runs what is not there yet; returns what failed, as sentences."""

@@ -7,18 +7,23 @@ import pathlib
 from .. import dry, level_study, levels, method_study, options, section, shape_levels, tables, user_scene, user_study
 
 ALL_POINTS = tuple((inclination, velocity) for inclination in (0, 40, 80) for velocity in (0.58, 0.72, 1.165))
+# Of dry scenes with --quick, and of the standard size; --levels names any, --full has all.
+FEW = ("S1", "mean", "eccentric", "C8", "C27", "C64", "C216", "smooth 0.3")
+MORE = ("S1", "25 %", "mean", "eccentric", "C8", "C27", "C64", "C216", "C512", "D7", "D19", "D48", "D80", "D224", "smooth 0.3", "smooth 0.6", "smooth 1")
 SIZES = {
-    # quick: cubes, two points; standard: within the hour on 2 idle cores; full: a cluster, or a night
     "quick": level_study.Size(
-        bodies=("cube",), few_bodies=True, seeds=3, most_seeds=3, seeds_beside=3, length=0.15, cells="8 32 10", seconds={0: 1.0, 40: 2.0, 80: 2.5},
+        bodies=("cube",), few_bodies=True, seeds=3, most_seeds=3, dry_levels=FEW,
+        seeds_beside=3, length=0.15, cells="8 32 10", seconds={0: 1.0, 40: 2.0, 80: 2.5},
         points=((0, 0.58), (80, 0.58)), section_levels=("S1", "mean", "eccentric", "C8", "C64", "C216"),
         methods=method_study.Size(inclinations=(80,), seeds=1, seconds=1.0, finest=False)),
     "standard": level_study.Size(
-        bodies=("cube", "disk"), few_bodies=True, seeds=4, most_seeds=12, seeds_beside=1, length=0.15, cells="8 32 10", seconds={0: 1.0, 40: 2.0, 80: 2.5},
+        bodies=("cube", "disk"), few_bodies=True, seeds=3, most_seeds=10, dry_levels=MORE,
+        seeds_beside=1, length=0.15, cells="8 32 10", seconds={0: 1.0, 40: 2.0, 80: 2.5},
         points=ALL_POINTS, section_levels=("S1", "mean", "eccentric", "C8", "C64", "C216", "D7", "D48", "D80"),
         methods=method_study.Size(inclinations=(0, 80), seeds=1, seconds=2.0, finest=False)),
     "full": level_study.Size(
-        bodies=("cube", "disk"), few_bodies=False, seeds=10, most_seeds=20, seeds_beside=10, length=0.6, cells="8 32 40", seconds={0: 5, 40: 5, 80: 6},
+        bodies=("cube", "disk"), few_bodies=False, seeds=10, most_seeds=20, dry_levels=(),
+        seeds_beside=10, length=0.6, cells="8 32 40", seconds={0: 5, 40: 5, 80: 6},
         points=ALL_POINTS, section_levels=(), methods=method_study.Size(inclinations=(0, 80), seeds=5, seconds=4.0, finest=True)),
 }
 SCENES = (*dry.SCENES, "section")
@@ -73,8 +78,8 @@ def answer(words):
 def main():
     parser = options.Parser("accuracy-cost", __doc__ + " docs/accuracy-cost.md says what comes out.", sizes=("quick", "full"))
     size = parser.add_mutually_exclusive_group()
-    size.add_argument("--quick", action="store_true", help="cubes, two points of the annulus: within 10 minutes on 2 idle cores")
-    size.add_argument("--full", action="store_true", help="ten seeds, 0.6 m of annulus: for a cluster")
+    size.add_argument("--quick", action="store_true", help="cubes, few levels, two points of the annulus")
+    size.add_argument("--full", action="store_true", help="all levels, ten seeds or more, 0.6 m of annulus: for a cluster")
     parser.add_argument("--parts", action=options.Words, choices=("levels", "methods"),
                         help="levels of detail; methods of the coupling (default: both)")
     parser.add_argument("--bodies", action=options.Words, choices=("cube", "disk"), help="what the levels stand for")
