@@ -8,7 +8,7 @@ from .. import dry, level_study, levels, method_study, options, section, shape_l
 
 ALL_POINTS = tuple((inclination, velocity) for inclination in (0, 40, 80) for velocity in (0.58, 0.72, 1.165))
 # Of dry scenes with --quick, and of the standard size; --levels names any, --full has all.
-FEW = ("S1", "mean", "eccentric", "C8", "C27", "C64", "C216", "smooth 0.3")
+FEW = ("S1", "mean", "eccentric", "C8", "C27", "C64", "C216", "D7", "D48", "D224", "smooth 0.3", "smooth 1")
 MORE = ("S1", "25 %", "mean", "eccentric", "C8", "C27", "C64", "C216", "C512", "D7", "D19", "D48", "D80", "D224", "smooth 0.3", "smooth 0.6", "smooth 1")
 SIZES = {
     "quick": level_study.Size(
