@@ -329,7 +329,7 @@ class Study:
         for body in self.bodies:
             shown = [group for group in self.groups if group.body == body and group.judged and group.candidates()]
             if shown:
-                page.append(f"Error against time over all scenes: `truth-{body}.svg`.\n")
+                first.append(f"![error of the {body} over time](truth-{body}.svg)\n")
                 charts.write(self.output / f"truth-{body}.svg", f"What accuracy costs: a {body} with true faces, and what stands for it",
                              [truth_chart.overall([group.rows for group in shown if group.central] or [group.rows for group in shown])], 1, (6.4, 4.2))
             central = [group for group in shown if group.central]
@@ -393,7 +393,7 @@ class Study:
         series += [charts.Series("", [charts.Point(*at, label=short(level.name), ring=level == bend) for level, at in points.items()
                                       if level.kind == kind], charts.COLOURS[COLOUR[kind]]) for kind in COLOUR]
         reference = groups[0].rows[-1].level.name
-        return charts.Panel(f"median of these {len(groups)} scenes", f"CPU time over that of {reference}",
+        return charts.Panel(f"median of these {len(groups)} scenes (dashed: front; ring: knee)", f"CPU time over that of {reference}",
                             f"deviation from {reference} [%]", series, True, True, legend=False)
 
     def cells(self, header, groups):

@@ -15,7 +15,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("ECCENTRA_BUILD", ROOT / "build"))
 sys.path.insert(0, str(ROOT / "scripts"))
-from study import calibration, least_squares, prediction  # noqa: E402
+from study import calibration, forecast, least_squares, level_study, levels, prediction  # noqa: E402
 
 
 class LeastSquares(unittest.TestCase):
@@ -106,6 +106,28 @@ class Prediction(unittest.TestCase):
 
     def test_defect(self):
         self.assertEqual((prediction.defect(0.0, 0.5), prediction.defect(0.5, 0.5)), (1.0, 0.0))
+
+
+class Forecast(unittest.TestCase):
+    def group(self, title, deviations):
+        ladder = [levels.Level("S1", "sphere"), levels.Level("S1 mu 0.20", "friction", mu=0.2), levels.Level("C8", "cluster", "cube 8"),
+                  levels.smooth("cube", 0.15)]
+        rows = [level_study.Row(level, 1.0, 0.02, 3, 1.0, 1.0, {}, 1e-5, {}, "", off, 0.03) for level, off in zip(ladder, [*deviations, math.nan])]
+        return level_study.Group(title, "cube", title, "", rows, True)
+
+    def test_page(self):
+        groups = [self.group(name, [-factor, -0.6 * factor, -0.5 * factor]) for name, factor in (("a", 0.8), ("b", 0.9), ("c", 0.7))]
+        with tempfile.TemporaryDirectory() as folder:
+            page = forecast.page_of(BUILD, groups, pathlib.Path(folder), "forecast")
+            self.assertEqual(forecast.page_of(BUILD, groups[:2], pathlib.Path(folder), "none"), [])
+            with open(pathlib.Path(folder) / "forecast.csv", newline="") as rows:
+                table = {(row["level"], row["scene"]): row for row in csv.DictReader(rows)}
+        self.assertEqual(len(table), 9)
+        self.assertAlmostEqual(float(table["S1", "a"]["predicted"]), 0.8, delta=0.05)  # the mean of 0.9 and 0.7
+        self.assertIn("| S1 | 1.00 | ", page[1])
+        lacks = {line.split("|")[1].strip(): float(line.split("|")[2]) for line in page[1].splitlines()[2:]}
+        self.assertLess(lacks["C8"], lacks["S1 mu 0.20"])  # 0.245 and 0.20 of the 0.55 of the cube with true faces
+        self.assertLess(lacks["S1 mu 0.20"], 1)
 
 
 class CalibrateRolling(unittest.TestCase):

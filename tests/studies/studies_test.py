@@ -692,8 +692,8 @@ class Page(unittest.TestCase):
             self.assertIn("run scripts/accuracy-cost --quick first", empty.stderr)
             for name in ("accuracy-cost", "accuracy-cost-quick"):
                 (root / name).mkdir()
-                (root / name / "results.md").write_text(f"from {name}\n![c](levels-cube.svg)\n")
-                (root / name / "levels-cube.svg").write_text("<svg/>")
+                (root / name / "results.md").write_text(f"from {name}\n![c](truth-cube.svg)\n")
+                (root / name / "truth-cube.svg").write_text("<svg/>")
             self.assertEqual(subprocess.run(script, capture_output=True).returncode, 0)
             page = (root / "docs" / "results.md").read_text()
             self.assertIn("from accuracy-cost\n![c](results-levels-cube.svg)", page)

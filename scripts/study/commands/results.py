@@ -8,7 +8,7 @@ import shutil
 
 from ..programs import ROOT
 
-CENTRAL_CHART = "levels-cube.svg"
+CENTRAL_CHART, COPY = "truth-cube.svg", "results-levels-cube.svg"  # of a study, and in docs, where the start page shows it
 STUDIES = ("accuracy-cost", "paper", "full-scene")
 HEAD = """# Results
 Made by `scripts/results` from what [accuracy-cost](accuracy-cost.md), [paper](paper.md) and `scripts/full-scene` wrote; do not edit.
@@ -33,9 +33,8 @@ def main():
         text = (folder / "results.md").read_text()
         for whole, name in re.findall(r"(!\[[^\]]*\]\(([\w./-]+\.(?:svg|png))\))", text):
             if name == CENTRAL_CHART:
-                copy = f"results-{name}"
-                shutil.copy(folder / name, words.docs / copy)
-                text = text.replace(f"]({name})", f"]({copy})")
+                shutil.copy(folder / name, words.docs / COPY)
+                text = text.replace(f"]({name})", f"]({COPY})")
             else:  # pictures belong to the results of a run, not to the sources
                 text = text.replace(whole, f"Chart: `results/{folder.name}/{name}`.")
         page.append(text)
