@@ -32,38 +32,55 @@ struct RimPoint {
   shape::CoreDistance at;
 };
 
+/// A point of a rim as something else sees it: with the slope of the distance along the rim, and how fast that changes.
+struct RimSample {
+  RimPoint point;
+  double slope; ///< [-]
+  double rate;  ///< per radian; NaN where it is not known
+};
+
 /// The closest point between two angles, at the first of which the distance falls and at the second of which it rises:
-/// the root of its slope, by the Illinois method. `slope_low` < 0 < `slope_high`. With `low` > `high` the farthest
-/// point.
-template <typename Distance>
-RimPoint closest_on_arc(const Rim& rim, double low, double slope_low, double high, double slope_high,
-                        const Distance& distance) {
-  constexpr double precision = 1e-13;
+/// the root of its slope, by Newton's method within a bracket that the Illinois method keeps. `slope_low` < 0 <
+/// `slope_high`. With `low` > `high` the farthest point. `sample(angle)` gives a RimSample.
+/// Starts at `angle`.
+template <typename Sampler>
+RimPoint closest_on_arc(double low, double slope_low, double high, double slope_high, double angle,
+                        const Sampler& sample) {
+  constexpr double precision = 1e-13; // of slopes and angles
+  constexpr double last = 1e-8;       // Newton's next step after one of this is round-off
   constexpr int limit = 60;
-  RimPoint best{};
   int kept = 0;
-  for (int k = 0; k < limit; ++k) {
-    const double angle = high - slope_high * (high - low) / (slope_high - slope_low);
-    best.point = rim.at(angle);
-    best.at = distance(best.point);
-    const double slope = best.at.normal.dot(rim.tangent(angle)) / rim.x.norm();
-    if (std::abs(slope) < precision || std::abs(high - low) < precision)
-      break;
-    if (slope < 0) {
+  bool final = false;
+  for (int k = 0;; ++k) {
+    const RimSample at = sample(angle);
+    if (final || k == limit || std::abs(at.slope) < precision || std::abs(high - low) < precision)
+      return at.point;
+    if (at.slope < 0) {
       low = angle;
-      slope_low = slope;
+      slope_low = at.slope;
       if (kept < 0)
         slope_high /= 2;
       kept = -1;
     } else {
       high = angle;
-      slope_high = slope;
+      slope_high = at.slope;
       if (kept > 0)
         slope_low /= 2;
       kept = 1;
     }
+    const double newton = angle - at.slope / at.rate;
+    if ((newton - low) * (newton - high) < 0) {
+      final = std::abs(newton - angle) < last;
+      angle = newton;
+    } else {
+      angle = high - slope_high * (high - low) / (slope_high - slope_low);
+    }
   }
-  return best;
+}
+
+/// Where the chord of the slope has its root.
+inline double chord_root(double low, double slope_low, double high, double slope_high) {
+  return high - slope_high * (high - low) / (slope_high - slope_low);
 }
 
 /// A point at which the distance along an arc is least, or greatest.
@@ -73,21 +90,26 @@ struct ArcExtreme {
 };
 
 /// Adds all of them between two angles, in order, as far as they can be told apart in so many equal pieces of the arc.
-template <typename Distance>
-void extremes_on_arc(const Rim& rim, double low, double slope_low, double high, double slope_high, int pieces,
-                     const Distance& distance, std::vector<ArcExtreme>& extremes) {
+/// `sample.slope(angle)` gives the slope alone.
+template <typename Sampler>
+void extremes_on_arc(double low, double slope_low, double high, double slope_high, int pieces, const Sampler& sample,
+                     std::vector<ArcExtreme>& extremes) {
   const double step = (high - low) / pieces;
   for (int k = 1; k <= pieces; ++k) {
     const double next = k == pieces ? high : low + step;
     double slope_next = slope_high;
     if (k < pieces) {
-      slope_next = distance(rim.at(next)).normal.dot(rim.tangent(next)) / rim.x.norm();
+      slope_next = sample.slope(next);
       slope_next = slope_next == 0 ? 1e-300 : slope_next; // a least one there belongs to one piece
     }
     if (slope_low < 0 && slope_next > 0)
-      extremes.push_back({closest_on_arc(rim, low, slope_low, next, slope_next, distance), true});
+      extremes.push_back(
+          {closest_on_arc(low, slope_low, next, slope_next, chord_root(low, slope_low, next, slope_next), sample),
+           true});
     else if (slope_low >= 0 && slope_next <= 0 && slope_low - slope_next > 0)
-      extremes.push_back({closest_on_arc(rim, next, slope_next, low, slope_low, distance), false});
+      extremes.push_back(
+          {closest_on_arc(next, slope_next, low, slope_low, chord_root(next, slope_next, low, slope_low), sample),
+           false});
     low = next;
     slope_low = slope_next;
   }

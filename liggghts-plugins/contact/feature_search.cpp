@@ -34,8 +34,8 @@ void depths(const PosedCore& posed, const Vector3d& direction, std::vector<doubl
     d[k] = reach - (u * x[k] + v * y[k] + w * z[k]);
 }
 
-/// Whether two edges may come to touch in the inside of both.
-bool may_cross(const Vector3d& a, const Vector3d& u, const Vector3d& b, const Vector3d& v, double limit, double skin) {
+/// Whether two segments a + s u and b + t v, s and t in [0, 1], are closer than `limit`.
+bool segments_closer(const Vector3d& a, const Vector3d& u, const Vector3d& b, const Vector3d& v, double limit) {
   const Vector3d r = a - b;
   const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), ur = u.dot(r), vr = v.dot(r),
                det = uu * vv - uv * uv;
@@ -45,8 +45,16 @@ bool may_cross(const Vector3d& a, const Vector3d& u, const Vector3d& b, const Ve
     t = std::clamp(t, 0., 1.);
     s = std::clamp((uv * t - ur) / uu, 0., 1.);
   }
-  if ((r + s * u - t * v).squaredNorm() >= limit * limit)
+  return (r + s * u - t * v).squaredNorm() < limit * limit;
+}
+
+/// Whether two edges may come to touch in the inside of both.
+bool may_cross(const Vector3d& a, const Vector3d& u, const Vector3d& b, const Vector3d& v, double limit, double skin) {
+  if (!segments_closer(a, u, b, v, limit))
     return false;
+  const Vector3d r = a - b;
+  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), ur = u.dot(r), vr = v.dot(r),
+               det = uu * vv - uv * uv;
   constexpr double nearly_parallel = 0.01; // squared sine: closest points run fast
   const double sine2 = det / (uu * vv);
   if (sine2 <= nearly_parallel)
@@ -55,6 +63,19 @@ bool may_cross(const Vector3d& a, const Vector3d& u, const Vector3d& b, const Ve
   const double su = (uv * vr - ur * vv) / det, tu = (uu * vr - uv * ur) / det, margin = 4 * skin / sine2;
   const double lu = std::sqrt(uu), lv = std::sqrt(vv);
   return su * lu >= -margin && (su - 1) * lu <= margin && tu * lv >= -margin && (tu - 1) * lv <= margin;
+}
+
+/// An edge, or the axis of a disk, relative to its body's centre.
+struct CoreLine {
+  Vector3d from, along;
+};
+CoreLine core_line(const PosedCore& posed, int line) {
+  const ContactCore& core = *posed.core;
+  if (core.is_disk())
+    return {-core.half.z() * posed.rotation.col(2), 2 * core.half.z() * posed.rotation.col(2)};
+  const auto& edge = core.edges[line];
+  const Vector3d from = posed.point(edge[0]);
+  return {from, posed.point(edge[1]) - from};
 }
 
 } // namespace
@@ -92,16 +113,16 @@ double FeatureSearch::search(const BodyPair& pair, double skin) {
       }
     return skin;
   }
-  if (b.core->solid != SolidKind::none)
-    find_points(pair, false, skin, solids ? depth_a_.data() : nullptr, budget);
   if (solids)
     find_edges(pair, limit, skin, budget);
-  if (a.core->is_disk() && solids)
-    find_arcs(pair, false, limit);
-  if (b.core->is_disk() && solids)
-    find_arcs(pair, true, limit);
-  if (a.core->solid != SolidKind::none)
-    find_points(pair, true, skin, solids ? depth_b_.data() : nullptr, budget);
+  for (const bool of_b : {false, true}) {
+    if ((of_b ? a : b).core->solid == SolidKind::none)
+      continue;
+    if (solids && (of_b ? b : a).core->is_disk())
+      find_rims(pair, of_b, limit);
+    else
+      find_points(pair, of_b, skin, solids ? (of_b ? depth_b_ : depth_a_).data() : nullptr, budget);
+  }
   std::sort(found_.begin(), found_.end());
   found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
   return skin;
@@ -128,16 +149,22 @@ void FeatureSearch::find_points(const BodyPair& pair, bool of_b, double skin, co
 void FeatureSearch::find_edges(const BodyPair& pair, double limit, double skin, double budget) {
   const PosedCore &a = *pair.a.posed, &b = *pair.b.posed;
   const bool axis_a = a.core->is_disk(), axis_b = b.core->is_disk();
-  // A disk's side: its axis with each edge, or with the other's axis. The ids of the few there are need no distances.
+  // A disk's side: its axis with each edge, or with the other's axis.
   if ((axis_a && !a.core->has_axis()) || (axis_b && !b.core->has_axis()))
     return;
   if (axis_a || axis_b) {
     const int count_a = axis_a ? 1 : static_cast<int>(a.core->edges.size()),
               count_b = axis_b ? 1 : static_cast<int>(b.core->edges.size());
-    for (int i = 0; i < count_a; ++i)
-      for (int j = 0; j < count_b; ++j)
-        found_.push_back(feature_id(axis_a ? a.core->axis_feature() : a.core->line_feature(i),
-                                    axis_b ? b.core->axis_feature() : b.core->line_feature(j)));
+    const double far = limit + (axis_a ? a.core->half.x() : 0) + (axis_b ? b.core->half.x() : 0);
+    for (int i = 0; i < count_a; ++i) {
+      const CoreLine la = core_line(a, i);
+      for (int j = 0; j < count_b; ++j) {
+        const CoreLine lb = core_line(b, j);
+        if (segments_closer(la.from, la.along, pair.offset + lb.from, lb.along, far))
+          found_.push_back(feature_id(axis_a ? a.core->axis_feature() : a.core->line_feature(i),
+                                      axis_b ? b.core->axis_feature() : b.core->line_feature(j)));
+      }
+    }
     return;
   }
   const auto depth_of = [](const std::vector<double>& depth, const std::array<int, 2>& edge) {
@@ -161,28 +188,38 @@ void FeatureSearch::find_edges(const BodyPair& pair, double limit, double skin, 
   }
 }
 
-void FeatureSearch::find_arcs(const BodyPair& pair, bool of_b, double limit) {
+void FeatureSearch::find_rims(const BodyPair& pair, bool of_b, double limit) {
   const ContactBody &own = of_b ? pair.b : pair.a, &solid = of_b ? pair.a : pair.b;
-  const ContactCore& core = *own.posed->core;
-  const Vector3d shift = of_b ? pair.offset : Vector3d(-pair.offset);
-  const int other = solid.posed->core->solid_feature();
-  const double length = core.half.x() * 2 * M_PI / core.ring;
-  for (int rim = 0; rim < core.rims; ++rim) {
-    const auto distance = [&](int k) {
-      return distance_to(*solid.posed, own.posed->point(rim * core.ring + k % core.ring) + shift).distance;
-    };
-    double before = distance(0);
-    for (int k = 0; k < core.ring; ++k) {
-      const double next = distance(k + 1);
-      if ((before + next - length) / 2 < limit) {
-        // With its ends, so that their distances come the same way, whatever else is found.
-        const int arc = core.line_feature(rim * core.ring + k), from = rim * core.ring + k,
-                  to = rim * core.ring + (k + 1) % core.ring;
-        for (const int feature : {arc, from, to})
-          found_.push_back(of_b ? feature_id(other, feature) : feature_id(feature, other));
-      }
-      before = next;
+  const ContactCore &core = *own.posed->core, &of_solid = *solid.posed->core;
+  constexpr int ring = shape::points_on_rim;
+  const int other = of_solid.solid_feature();
+  const Vector3d to_disk = of_b ? pair.offset : Vector3d(-pair.offset);
+  const auto note = [&](int feature) {
+    found_.push_back(of_b ? feature_id(other, feature) : feature_id(feature, other));
+  };
+  for (int number = 0; number < core.rims; ++number) {
+    const RimOnSolid rim(*own.posed, number, *solid.posed, to_disk);
+    rims_.count = 0;
+    for (int k = 0; k < ring; ++k)
+      rims_.add(rim, k);
+    if (of_solid.is_disk())
+      rims_.on_disks();
+    else if (of_solid.solid == SolidKind::box)
+      rims_.on_boxes();
+    else
+      rims_.on_polyhedra(std::vector<const ContactCore*>(ring, &of_solid));
+    bool listed[ring] = {};
+    for (int k = 0; k < ring; ++k) {
+      const int next = (k + 1) % ring;
+      listed[k] |= rims_.at(RimLanes::distance, k) < limit;
+      if (rim.least_between(rims_.end(k), rims_.end(next)) >= limit)
+        continue;
+      note(core.line_feature(number * ring + k));
+      listed[k] = listed[next] = true;
     }
+    for (int k = 0; k < ring; ++k)
+      if (listed[k])
+        note(number * ring + k);
   }
 }
 

@@ -19,8 +19,9 @@ class FeatureSearch {
  private:
   void find_points(const BodyPair& pair, bool of_b, double skin, const double* depth, double budget);
   void find_edges(const BodyPair& pair, double limit, double skin, double budget);
-  void find_arcs(const BodyPair& pair, bool of_b, double limit);
+  void find_rims(const BodyPair& pair, bool of_b, double limit);
   std::vector<int> found_;
+  RimLanes rims_;                         ///< points of the rim at hand
   std::vector<double> depth_a_, depth_b_; ///< of points behind the support plane [m]
 };
 

@@ -3,7 +3,6 @@
 // From candidates to contacts: exact distances in lanes, then each pair's springs and their weights.
 #include "contact/manifold.h"
 
-#include "contact/arc_minimum.h"
 #include "contact/gjk.h"
 #include "contact/hand_over.h"
 #include "contact/least_axis.h"
@@ -11,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -28,6 +28,8 @@ constexpr double may_have_crossed = 0.25;
 /// more than so many.
 constexpr double resolved = 0.5;
 constexpr int max_pieces = 8;
+/// Centres closer than this part of the bounding radii: one body may have passed through the other without a contact.
+constexpr double passed_through = 0.25;
 /// From cores that touch to this part of the reach deep, contacts turn to the least axis.
 constexpr double turning_depth = 0.25;
 
@@ -62,8 +64,13 @@ void Manifolds::clear() {
   points_.clear();
   edges_.clear();
   lines_.clear();
+  rims_.clear();
+  rim_points_.clear();
   arcs_.clear();
-  boxes_.count = edge_lanes_.count = 0;
+  boxes_.count = disks_.count = edge_lanes_.count = 0;
+  for (RimLanes& lanes : rim_lanes_)
+    lanes.count = 0;
+  rim_polyhedra_.clear();
   contacts_.clear();
   first_.clear();
   gap_.clear();
@@ -71,30 +78,39 @@ void Manifolds::clear() {
 }
 
 void Manifolds::add(const BodyPair& bodies, const int* candidates, int count) {
-  Pair pair{bodies,
-            static_cast<int>(points_.size()),
-            static_cast<int>(edges_.size()),
-            static_cast<int>(arcs_.size()),
-            static_cast<int>(lines_.size()),
-            0,
-            0,
-            0,
-            0,
-            false};
+  Pair pair;
+  pair.bodies = bodies;
+  pair.first_point = static_cast<int>(points_.size());
+  pair.first_rim = static_cast<int>(rims_.size());
+  pair.first_rim_point = static_cast<int>(rim_points_.size());
+  pair.first_edge = static_cast<int>(edges_.size());
+  pair.first_arc = static_cast<int>(arcs_.size());
+  pair.first_line = static_cast<int>(lines_.size());
+  pair.may_be_sunk = false;
   const ContactCore &a = *bodies.a.posed->core, &b = *bodies.b.posed->core;
+  constexpr int ring = shape::points_on_rim;
+  std::array<int, 2 * ring> at[2]; // of A's and B's rims: into rim_points_
+  const auto add_arc = [&](int arc, bool of_b) {
+    const int from = at[of_b][arc], to = at[of_b][arc / ring * ring + (arc + 1) % ring];
+    arcs_.push_back({rim_points_[from].rim, arc % ring, from, to});
+  };
   for (int k = 0; k < count; ++k) {
     const int fa = feature_a(candidates[k]), fb = feature_b(candidates[k]);
     const bool point_a = fa < a.points, point_b = fb < b.points;
     if (fa == a.solid_feature() && fb == b.solid_feature() && !point_a) {
       pair.may_be_sunk = true;
+    } else if (point_a && a.is_disk() && b.solid != SolidKind::none) {
+      at[0][fa] = add_rim_point(bodies, fa, false, pair.first_rim);
     } else if (point_a) {
       add_point(bodies, fa, fb, false);
+    } else if (point_b && b.is_disk() && a.solid != SolidKind::none) {
+      at[1][fb] = add_rim_point(bodies, fb, true, pair.first_rim);
     } else if (point_b) {
       add_point(bodies, fb, fa, true);
     } else if (fb == b.solid_feature()) {
-      arcs_.push_back({fa - a.points, false});
+      add_arc(fa - a.points, false);
     } else if (fa == a.solid_feature()) {
-      arcs_.push_back({fb - b.points, true});
+      add_arc(fb - b.points, true);
     } else {
       const int line_a = fa - a.points, line_b = fb - b.points;
       const Line la = line_of(*bodies.a.posed, line_a), lb = line_of(*bodies.b.posed, line_b);
@@ -103,6 +119,8 @@ void Manifolds::add(const BodyPair& bodies, const int* candidates, int count) {
     }
   }
   pair.last_point = static_cast<int>(points_.size());
+  pair.last_rim = static_cast<int>(rims_.size());
+  pair.last_rim_point = static_cast<int>(rim_points_.size());
   pair.last_edge = static_cast<int>(edges_.size());
   pair.last_arc = static_cast<int>(arcs_.size());
   pair.last_line = static_cast<int>(lines_.size());
@@ -125,6 +143,9 @@ void Manifolds::add_point(const BodyPair& pair, int feature, int other, bool of_
   if (core.solid == SolidKind::box) {
     p.lane = boxes_.count;
     boxes_.add(solid.posed->rotation.transpose() * from_solid, core.half);
+  } else if (core.is_disk()) {
+    p.lane = disks_.count;
+    disks_.add(solid.posed->rotation.transpose() * from_solid, core.half);
   } else if (core.solid == SolidKind::none) {
     const Vector3d apart = from_solid - solid.posed->point(other);
     p.distance = apart.norm();
@@ -137,16 +158,33 @@ void Manifolds::add_point(const BodyPair& pair, int feature, int other, bool of_
   points_.push_back(p);
 }
 
+int Manifolds::add_rim_point(const BodyPair& pair, int feature, bool of_b, int first_rim) {
+  const PosedCore &own = *(of_b ? pair.b : pair.a).posed, &solid = *(of_b ? pair.a : pair.b).posed;
+  const int number = feature / shape::points_on_rim, k = feature % shape::points_on_rim;
+  // Points of one rim follow one another.
+  if (static_cast<int>(rims_.size()) == first_rim || rims_.back().of_b != of_b || rims_.back().number != number)
+    rims_.push_back({RimOnSolid(own, number, solid, of_b ? pair.offset : Vector3d(-pair.offset)), of_b, number, -1});
+  RimLanes& lanes = lanes_on(*solid.core);
+  if (&lanes == &rim_lanes_[2])
+    rim_polyhedra_.push_back(solid.core);
+  rim_points_.push_back({static_cast<int>(rims_.size()) - 1, k, lanes.count, -1});
+  lanes.add(rims_.back().frame, k);
+  return static_cast<int>(rim_points_.size()) - 1;
+}
+
 void Manifolds::evaluate() {
   boxes_.evaluate();
+  disks_.evaluate();
+  rim_lanes_[0].on_disks();
+  rim_lanes_[1].on_boxes();
+  rim_lanes_[2].on_polyhedra(rim_polyhedra_);
   edge_lanes_.evaluate();
   for (const Pair& pair : pairs_) {
     const int first = static_cast<int>(contacts_.size());
     first_.push_back(first);
     double gap = std::numeric_limits<double>::max();
-    for (auto& rims : rim_contact_)
-      rims[0] = rims[1] = -1;
     take_points(pair, gap);
+    take_rim_points(pair, gap);
     for (int k = pair.first_edge; k < pair.last_edge; ++k)
       take_edge(pair, edges_[k], gap);
     for (int k = pair.first_arc; k < pair.last_arc; ++k)
@@ -154,7 +192,7 @@ void Manifolds::evaluate() {
     for (int k = pair.first_line; k < pair.last_line; ++k)
       take_line(pair, lines_[k], gap);
     drop_weightless(first);
-    sunk_.push_back(pair.may_be_sunk ? soften_sunk(pair.bodies, first) : 0);
+    sunk_.push_back(pair.may_be_sunk && may_overlap(pair.bodies, first) ? soften_sunk(pair.bodies, first) : 0);
     gap_.push_back(gap);
     // Few contacts, nearly in order.
     for (int k = first + 1; k < static_cast<int>(contacts_.size()); ++k)
@@ -168,25 +206,21 @@ void Manifolds::take_points(const Pair& pair, double& gap) {
   for (int k = pair.first_point; k < pair.last_point; ++k) {
     PointState& p = points_[k];
     if (p.lane >= 0) {
-      p.distance = boxes_.at(BoxLanes::distance, p.lane);
+      const PosedCore& solid = *(p.of_b ? pair.bodies.a : pair.bodies.b).posed;
+      const bool on_disk = solid.core->is_disk();
+      p.distance = on_disk ? disks_.at(DiskLanes::distance, p.lane) : boxes_.at(BoxLanes::distance, p.lane);
       if (p.distance < p.reach)
-        p.normal = (p.of_b ? pair.bodies.a : pair.bodies.b).posed->rotation * boxes_.normal(p.lane);
+        p.normal = solid.rotation * (on_disk ? disks_.normal(p.lane) : boxes_.normal(p.lane));
     }
     gap = std::min(gap, p.distance - p.reach);
     if (p.distance >= p.reach)
       continue;
     p.contact = static_cast<int>(contacts_.size());
     const Vector3d arm = p.of_b ? Vector3d(p.point - p.distance * p.normal) : p.point;
-    const ContactCore& own = *(p.of_b ? pair.bodies.b : pair.bodies.a).posed->core;
     const double radius_own = radius_of(p.of_b ? pair.bodies.b : pair.bodies.a, p.feature);
     contacts_.push_back({p.of_b ? feature_id(p.other, p.feature) : feature_id(p.feature, p.other), false, arm,
                          p.of_b ? Vector3d(-p.normal) : p.normal, p.distance, p.reach,
                          p.of_b ? p.reach - radius_own : radius_own, 1});
-    if (own.is_disk()) {
-      int& best = rim_contact_[p.of_b][p.feature / own.ring];
-      if (best < 0 || p.distance < contacts_[best].distance)
-        best = p.contact;
-    }
   }
 }
 
@@ -262,78 +296,101 @@ void Manifolds::take_edge(const Pair& pair, const EdgePair& edge, double& gap) {
         {feature_id(feature_line_a, feature_line_b), false, on_a, normal, distance, reach, radius_a, weight});
 }
 
-/// The state of a point on a rim, asked for if it is no candidate.
-Manifolds::PointState& Manifolds::state_of(const Pair& pair, int feature, bool of_b) {
-  for (int k = pair.first_point; k < pair.last_point; ++k)
-    if (points_[k].feature == feature && points_[k].of_b == of_b)
-      return points_[k];
-  // Behind all pairs' own, where nothing looks for it again.
-  add_point(pair.bodies, feature, (of_b ? pair.bodies.a : pair.bodies.b).posed->core->solid_feature(), of_b);
-  PointState& p = points_.back();
-  if (p.lane >= 0) {
-    const shape::CoreDistance d = of_b ? distance_to(*pair.bodies.a.posed, p.point)
-                                       : distance_to(*pair.bodies.b.posed, p.point - pair.bodies.offset);
-    boxes_.count = p.lane; // its lane is not needed
-    p.lane = -1;
-    p.distance = d.distance;
-    p.normal = d.normal;
+void Manifolds::take_rim_points(const Pair& pair, double& gap) {
+  for (int k = pair.first_rim_point; k < pair.last_rim_point; ++k) {
+    RimPoint& p = rim_points_[k];
+    RimState& rim = rims_[p.rim];
+    const ContactBody &own = rim.of_b ? pair.bodies.b : pair.bodies.a,
+                      &solid = rim.of_b ? pair.bodies.a : pair.bodies.b;
+    const RimLanes& lanes = lanes_on(*solid.posed->core);
+    const double radius_own = radius_of(own, 0), reach = radius_own + radius_of(solid, 0),
+                 distance = lanes.at(RimLanes::distance, p.lane);
+    gap = std::min(gap, distance - reach);
+    if (distance >= reach)
+      continue;
+    p.contact = static_cast<int>(contacts_.size());
+    if (rim.closest < 0 || distance < contacts_[rim.closest].distance)
+      rim.closest = p.contact;
+    const Vector3d normal = solid.posed->rotation * lanes.vector(RimLanes::nx, p.lane);
+    Vector3d on = solid.posed->rotation * lanes.vector(RimLanes::px, p.lane);
+    const int feature = rim.number * shape::points_on_rim + p.k, other = solid.posed->core->solid_feature();
+    if (rim.of_b) {
+      on -= distance * normal;
+      contacts_.push_back({feature_id(other, feature), false, on, -normal, distance, reach, reach - radius_own, 1});
+    } else {
+      on += pair.bodies.offset;
+      contacts_.push_back({feature_id(feature, other), false, on, normal, distance, reach, radius_own, 1});
+    }
   }
-  return p;
+}
+
+/// The contact of a rim that is closest to the other's solid, or -1.
+int Manifolds::closest_of_rim(const Pair& pair, bool of_b, int number) const {
+  for (int k = pair.first_rim; k < pair.last_rim; ++k)
+    if (rims_[k].of_b == of_b && rims_[k].number == number)
+      return rims_[k].closest;
+  return -1;
 }
 
 void Manifolds::take_arc(const Pair& pair, const ArcState& state, double& gap) {
-  const bool of_b = state.of_b;
+  RimState& rim = rims_[state.rim];
+  const bool of_b = rim.of_b;
   const ContactBody &own = of_b ? pair.bodies.b : pair.bodies.a, &solid = of_b ? pair.bodies.a : pair.bodies.b;
   const ContactCore& core = *own.posed->core;
-  const int rim_number = state.arc / core.ring, index = state.arc % core.ring;
-  const int first = state.arc, second = rim_number * core.ring + (index + 1) % core.ring;
-  PointState from = state_of(pair, first, of_b), to = state_of(pair, second, of_b);
-  const double reach = from.reach, step = 2 * M_PI / core.ring, length = core.half.x() * step;
-  const double least =
-      (from.distance + to.distance - length) / 2 - reach; // distances change no faster than points move
+  const RimPoint &first = rim_points_[state.from], &second = rim_points_[state.to];
+  const RimLanes& lanes = lanes_on(*solid.posed->core);
+  const RimEnd from = lanes.end(first.lane), to = lanes.end(second.lane);
+  const double radius_own = radius_of(own, 0), reach = radius_own + radius_of(solid, 0);
+  const double least = rim.frame.least_between(from, to) - reach;
   if (least >= 0) {
     gap = std::min(gap, least);
     return;
   }
-  const Rim rim(*own.posed, rim_number);
-  const Vector3d shift = of_b ? pair.bodies.offset : Vector3d(-pair.bodies.offset);
-  // Where its distance was all that was needed, the normal is still in the solid's frame.
-  const auto normal_at = [&](const PointState& p) {
-    return p.distance < p.reach || p.lane < 0 ? p.normal : Vector3d(solid.posed->rotation * boxes_.normal(p.lane));
-  };
-  const double angle = index * step, unit = core.half.x();
-  const double slope_from = normal_at(from).dot(rim.tangent(angle)) / unit,
-               slope_to = normal_at(to).dot(rim.tangent(angle + step)) / unit;
-  const auto distance = [&](const Vector3d& p) { return distance_to(*solid.posed, p + shift); };
-  const int pieces = std::clamp(static_cast<int>(std::ceil(length / (resolved * reach))), 1, max_pieces);
+  constexpr double half = RingDirections::step / 2;
+  const RimOnSolid::Arc arc(rim.frame, state.k);
   extremes_.clear();
-  extremes_on_arc(rim, angle, slope_from, angle + step, slope_to, pieces, distance, extremes_);
+  if (RimOnSolid::monotonic(from, to)) {
+    if (from.slope < 0 && to.slope > 0)
+      extremes_.push_back(
+          {closest_on_arc(-half, from.slope, half, to.slope, RimOnSolid::cubic_root(from, to), arc), true});
+    else if (from.slope >= 0 && to.slope <= 0)
+      extremes_.push_back(
+          {closest_on_arc(half, to.slope, -half, from.slope, RimOnSolid::cubic_root(from, to), arc), false});
+  } else {
+    const int pieces =
+        std::clamp(static_cast<int>(std::ceil(2 * half * core.half.x() / (resolved * reach))), 1, max_pieces);
+    extremes_on_arc(-half, from.slope, half, to.slope, pieces, arc, extremes_);
+  }
   if (extremes_.empty())
     return; // an end is closest
   for (const ArcExtreme& e : extremes_)
     gap = std::min(gap, e.point.at.distance - reach);
-  const ArcSpring spring({reach - from.distance, reach - to.distance}, {slope_from, slope_to}, extremes_, reach);
-  const int touching[2] = {from.contact, to.contact};
+  const ArcSpring spring({reach - from.distance, reach - to.distance}, {from.slope, to.slope}, extremes_, reach);
+  const int touching[2] = {first.contact, second.contact};
   for (int k = 0; k < 2; ++k)
     if (touching[k] >= 0)
       contacts_[touching[k]].weight -= spring.loss[k];
   if (spring.share <= no_weight)
     return;
-  const double radius_own = radius_of(own, 0), radius_a = of_b ? reach - radius_own : radius_own;
-  const int own_feature = core.line_feature(state.arc);
+  const double radius_a = of_b ? reach - radius_own : radius_own;
+  const int own_feature = core.line_feature(rim.number * core.ring + state.k);
   int other = solid.posed->core->solid_feature();
   for (const ArcExtreme& e : extremes_) {
-    const shape::CoreDistance& at = e.point.at;
-    if (at.distance >= reach)
+    const double distance = e.point.at.distance;
+    if (distance >= reach)
       continue;
-    const Vector3d on = of_b ? Vector3d(pair.bodies.offset + e.point.point) : e.point.point;
-    int& closest = rim_contact_[of_b][rim_number];
-    if (e.closest && (closest < 0 || at.distance < contacts_[closest].distance))
-      closest = static_cast<int>(contacts_.size());
+    const Vector3d normal = solid.posed->rotation * e.point.at.normal;
+    Vector3d on = solid.posed->rotation * e.point.point; // from A's centre to the point of A's core
+    if (of_b)
+      on -= distance * normal;
+    else
+      on += pair.bodies.offset;
+    if (e.closest && (rim.closest < 0 || distance < contacts_[rim.closest].distance))
+      rim.closest = static_cast<int>(contacts_.size());
     // Further ones on the same arc have the numbers behind the solid's.
-    contacts_.push_back({of_b ? feature_id(other, own_feature) : feature_id(own_feature, other), !e.closest,
-                         of_b ? Vector3d(on - at.distance * at.normal) : on, of_b ? Vector3d(-at.normal) : at.normal,
-                         at.distance, reach, radius_a, e.closest ? spring.share : -spring.share});
+    contacts_.push_back({of_b ? feature_id(other, own_feature) : feature_id(own_feature, other), !e.closest, on,
+                         of_b ? Vector3d(-normal) : normal, distance, reach, radius_a,
+                         e.closest ? spring.share : -spring.share});
     ++other;
   }
 }
@@ -359,8 +416,9 @@ void Manifolds::take_line(const Pair& pair, const EdgePair& line, double& gap) {
   // The ends: vertices of an edge, rims of an axis.
   int ends[4];
   for (int k = 0; k < 2; ++k) {
-    ends[k] = core_a.is_disk() ? rim_contact_[0][k] : contact_of(pair, core_a.edges[line.line_a][k], false);
-    ends[2 + k] = core_b.is_disk() ? rim_contact_[1][k] : contact_of(pair, core_b.edges[line.line_b][k], true);
+    ends[k] = core_a.is_disk() ? closest_of_rim(pair, false, k) : contact_of(pair, core_a.edges[line.line_a][k], false);
+    ends[2 + k] =
+        core_b.is_disk() ? closest_of_rim(pair, true, k) : contact_of(pair, core_b.edges[line.line_b][k], true);
   }
   const double overlap = reach - distance;
   double end_overlap[4];
@@ -387,6 +445,17 @@ void Manifolds::drop_weightless(int first) {
     contacts_[kept++] = c;
   }
   contacts_.resize(kept);
+}
+
+/// False where the contacts show that the cores do not overlap, at much less than the price of the axes. A disk cannot
+/// overlap without a rim's point or a side in the other, unless one body has passed through the other's faces.
+bool Manifolds::may_overlap(const BodyPair& pair, int first) const {
+  const ContactCore &a = *pair.a.posed->core, &b = *pair.b.posed->core;
+  if (!(a.is_disk() || b.is_disk()) || a.solid == SolidKind::flat || b.solid == SolidKind::flat)
+    return true;
+  if (first == static_cast<int>(contacts_.size()))
+    return pair.offset.norm() < passed_through * (a.bound + b.bound);
+  return std::any_of(contacts_.begin() + first, contacts_.end(), [](const Contact& c) { return c.distance <= 0; });
 }
 
 /// Normals of cores that overlap lead in all directions, some of them deeper in, and hold the bodies together. There

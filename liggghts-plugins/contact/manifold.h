@@ -6,6 +6,8 @@
 #include "contact/arc_minimum.h"
 #include "contact/contact_core.h"
 #include "contact/manifold_lanes.h"
+#include "contact/rim_lanes.h"
+#include "contact/rim_on_solid.h"
 
 #include <vector>
 
@@ -55,8 +57,8 @@ class Manifolds {
  public:
   /// Forgets all pairs.
   void clear();
-  /// Takes in a pair with its candidates (feature_id, ascending), which must hold all points in reach; the pair of both
-  /// solids among them says that the cores may overlap.
+  /// Takes in a pair with its candidates (feature_id, ascending), which must hold all points in reach, and the two ends
+  /// of each arc of a rim; the pair of both solids among them says that the cores may overlap.
   void add(const BodyPair& pair, const int* candidates, int count);
   /// Finds the contacts of all pairs.
   void evaluate();
@@ -75,7 +77,7 @@ class Manifolds {
   struct PointState {
     int feature, other;
     bool of_b;
-    int lane; ///< into boxes_, or -1
+    int lane; ///< into boxes_ or disks_, or -1
     Eigen::Vector3d point;
     double distance, reach;
     Eigen::Vector3d normal; ///< from the solid to the point
@@ -85,38 +87,62 @@ class Manifolds {
     int line_a, line_b;
     int lane;
   };
-  struct ArcState {
-    int arc;
+  /// A rim of a disk against the other's solid.
+  struct RimState {
+    RimOnSolid frame;
     bool of_b;
+    int number;
+    int closest; ///< the contact closest to the solid, or -1
+  };
+  struct RimPoint {
+    int rim;  ///< into rims_
+    int k;    ///< on it
+    int lane; ///< into the lanes of the kind of solid
+    int contact;
+  };
+  struct ArcState {
+    int rim;      ///< into rims_
+    int k;        ///< from this point to the next
+    int from, to; ///< into rim_points_: its ends
   };
   struct Pair {
     BodyPair bodies;
-    int first_point, first_edge, first_arc, first_line; ///< of the pair
-    int last_point, last_edge, last_arc, last_line;
+    int first_point, first_rim, first_rim_point, first_edge, first_arc, first_line; ///< of the pair
+    int last_point, last_rim, last_rim_point, last_edge, last_arc, last_line;
     bool may_be_sunk;
   };
 
   void add_point(const BodyPair& pair, int feature, int other, bool of_b);
-  PointState& state_of(const Pair& pair, int feature, bool of_b);
+  int add_rim_point(const BodyPair& pair, int feature, bool of_b, int first_rim);
+  RimLanes& lanes_on(const ContactCore& solid) {
+    return rim_lanes_[solid.is_disk() ? 0 : solid.solid == SolidKind::box ? 1 : 2];
+  }
   void take_points(const Pair& pair, double& gap);
+  void take_rim_points(const Pair& pair, double& gap);
+  int closest_of_rim(const Pair& pair, bool of_b, int number) const;
   void take_edge(const Pair& pair, const EdgePair& edge, double& gap);
   void take_arc(const Pair& pair, const ArcState& arc, double& gap);
   void take_line(const Pair& pair, const EdgePair& line, double& gap);
   int contact_of(const Pair& pair, int feature, bool of_b) const;
   void drop_weightless(int first);
+  bool may_overlap(const BodyPair& pair, int first) const;
   double soften_sunk(const BodyPair& pair, int first);
 
   std::vector<Pair> pairs_;
   std::vector<PointState> points_;
   std::vector<EdgePair> edges_, lines_;
+  std::vector<RimState> rims_;
+  std::vector<RimPoint> rim_points_;
   std::vector<ArcState> arcs_;
   std::vector<ArcExtreme> extremes_; ///< of the arc at hand
   BoxLanes boxes_;
+  DiskLanes disks_;
+  RimLanes rim_lanes_[3];                         ///< on disks, boxes, other solids
+  std::vector<const ContactCore*> rim_polyhedra_; ///< of the lanes on other solids
   EdgeLanes edge_lanes_;
   std::vector<Contact> contacts_;
   std::vector<int> first_;
   std::vector<double> gap_, sunk_;
-  int rim_contact_[2][2]; ///< of A's and B's rims: the contact closest to the other solid, or -1
 };
 
 } // namespace eccentra::contact

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Distances of points from boxes and of edges from edges, eight at a time; pure.
+// Distances of points from boxes and disks and of edges from edges, eight at a time; pure.
 #pragma once
 
 #include "contact/contact_core.h"
@@ -83,6 +83,50 @@ class BoxLanes {
       u[k] = std::copysign(ix, x[k]);
       v[k] = std::copysign(iy, y[k]);
       w[k] = std::copysign(iz, z[k]);
+    }
+  }
+
+ private:
+  LaneRows<row_count> rows_;
+};
+
+/// Points and flat cylinders about the z axis, both in the cylinder's frame.
+class DiskLanes {
+ public:
+  enum Row { px, py, pz, wide, high, nx, ny, nz, distance, row_count };
+  int count = 0;
+
+  /// `half`: radius twice, half height.
+  void add(const Eigen::Vector3d& point, const Eigen::Vector3d& half) {
+    rows_.reserve(count + 1);
+    for (int k = 0; k < 3; ++k)
+      rows_.row(px + k)[count] = point[k];
+    rows_.row(wide)[count] = half.x();
+    rows_.row(high)[count] = half.z();
+    ++count;
+  }
+  double at(Row row, int lane) const { return rows_.row(row)[lane]; }
+  Eigen::Vector3d normal(int lane) const { return {at(nx, lane), at(ny, lane), at(nz, lane)}; }
+
+  /// Distances and normals; inside, minus the depth under the nearer of face and side.
+  void evaluate() {
+    if (count == 0)
+      return;
+    const double *x = rows_.row(px), *y = rows_.row(py), *z = rows_.row(pz), *a = rows_.row(wide), *h = rows_.row(high);
+    double *u = rows_.row(nx), *v = rows_.row(ny), *w = rows_.row(nz), *d = rows_.row(distance);
+    const int n = (count + lane_width - 1) / lane_width * lane_width;
+#pragma GCC ivdep
+    for (int k = 0; k < n; ++k) {
+      const double rho = std::sqrt(x[k] * x[k] + y[k] * y[k]), beside = rho - a[k], above = std::fabs(z[k]) - h[k];
+      const double ob = beside > 0 ? beside : 0, oa = above > 0 ? above : 0;
+      const double square = ob * ob + oa * oa, root = std::sqrt(square);
+      const bool inside = !(square > 0), to_side = beside > above, on_axis = !(rho > 0);
+      const double inverse = 1 / (inside ? 1. : root), radial = 1 / (on_axis ? 1. : rho);
+      const double nb = inside ? (to_side ? 1. : 0.) : ob * inverse, na = inside ? (to_side ? 0. : 1.) : oa * inverse;
+      d[k] = inside ? (to_side ? beside : above) : root;
+      u[k] = on_axis ? nb : nb * x[k] * radial;
+      v[k] = nb * y[k] * radial;
+      w[k] = std::copysign(na, z[k]);
     }
   }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace eccentra::contact {
 
@@ -52,7 +53,7 @@ template <typename Distance> class WallContacts {
                      slope_from = at_[from].normal.dot(rim.tangent(angle)) / unit,
                      slope_to = at_[to].normal.dot(rim.tangent(angle + step)) / unit;
         extremes_.clear();
-        extremes_on_arc(rim, angle, slope_from, angle + step, slope_to, 1, distance_, extremes_);
+        extremes_on_arc(angle, slope_from, angle + step, slope_to, 1, Sample{rim, distance_}, extremes_);
         if (extremes_.empty())
           continue;
         const ArcSpring spring({reach - at_[from].distance, reach - at_[to].distance}, {slope_from, slope_to},
@@ -123,6 +124,18 @@ template <typename Distance> class WallContacts {
   }
 
  private:
+  /// A rim's points as the wall sees them.
+  struct Sample {
+    const Rim& rim;
+    const Distance& distance;
+    RimSample operator()(double angle) const {
+      const Vector3d point = rim.at(angle);
+      const shape::CoreDistance at = distance(point);
+      return {{point, at}, at.normal.dot(rim.tangent(angle)) / rim.x.norm(), std::numeric_limits<double>::quiet_NaN()};
+    }
+    double slope(double angle) const { return (*this)(angle).slope; }
+  };
+
   const PosedCore& posed_;
   const ContactCore& core_;
   double extra_;

@@ -7,6 +7,7 @@
 #include "contact/least_axis.h"
 #include "contact/manifold.h"
 #include "contact/mesh_manifold.h"
+#include "contact/rim_lanes.h"
 #include "contact/wall_manifold.h"
 #include "shape/cluster_shape.h"
 #include "shape/convex_hull.h"
@@ -286,6 +287,89 @@ TEST(SmoothManifold, CandidatesHoldForTheirSkin) {
           EXPECT_EQ(m.contacts()[k].weight, fresh.contacts[k].weight);
         }
       }
+}
+
+// A rim in the frame of a solid: distances, their slopes and the slopes' changes; no point of an arc is closer than the
+// bound that its ends give.
+TEST(SmoothManifold, RimsOnSolids) {
+  Random r(9);
+  constexpr double step = eccentra::contact::RingDirections::step, part = 1e-6;
+  int rates = 0, monotonic = 0;
+  double tightest = 1e300;
+  for (const char* line : {"smooth disk aspect .31 rounding .5", "smooth disk aspect .31 rounding 1"}) {
+    const ContactCore disk(made(line));
+    for (const RoundedHull& hull : kinds()) {
+      const ContactCore solid(hull);
+      if (solid.solid == SolidKind::none)
+        continue;
+      for (int n = 0; n < 60; ++n) {
+        const Pose pose = random_pose(disk, solid, r, 0.5 * disk.radius);
+        const int rim_number = n % disk.rims, k = n % disk.ring;
+        const RimOnSolid rim(pose.a, rim_number, pose.b, -pose.offset);
+        const RimOnSolid::Arc arc(rim, k);
+        const auto world = [&](double angle) {
+          const double turn = (k + 0.5) * step + angle;
+          return distance_to(pose.b, Vector3d(pose.a.rotation * Vector3d(disk.half.x() * std::cos(turn),
+                                                                         disk.half.x() * std::sin(turn),
+                                                                         (rim_number == 0 ? 1 : -1) * disk.half.z()) -
+                                              pose.offset));
+        };
+        const auto from = world(-step / 2), to = world(step / 2);
+        RimLanes lanes;
+        lanes.add(rim, k);
+        lanes.add(rim, (k + 1) % disk.ring);
+        if (solid.is_disk())
+          lanes.on_disks();
+        else if (solid.solid == SolidKind::box)
+          lanes.on_boxes();
+        else
+          lanes.on_polyhedra({&solid, &solid});
+        for (int end = 0; end < 2; ++end) {
+          const RimSample at = arc((end - 0.5) * step);
+          const RimEnd of_lane = lanes.end(end);
+          EXPECT_NEAR(of_lane.distance, end == 0 ? from.distance : to.distance, 1e-14);
+          EXPECT_NEAR(of_lane.slope, at.slope, 1e-12);
+          EXPECT_LT((lanes.vector(RimLanes::nx, end) - at.point.at.normal).norm(), 1e-12);
+          if (!std::isnan(at.rate))
+            EXPECT_NEAR(of_lane.rate, at.rate, 1e-10 * (1 + std::abs(at.rate)));
+        }
+        const double bound = rim.least_between(lanes.end(0), lanes.end(1));
+        if (RimOnSolid::monotonic(lanes.end(0), lanes.end(1))) {
+          const int samples = 40;
+          double before = lanes.end(0).slope;
+          const double way = lanes.end(1).slope - before;
+          for (int j = 1; j <= samples; ++j) {
+            const double next = arc.slope((j / double(samples) - 0.5) * step);
+            EXPECT_GT((next - before) * way, -1e-12);
+            before = next;
+          }
+          ++monotonic;
+        }
+        for (int j = 0; j <= 20; ++j) {
+          const double angle = (j / 20. - 0.5) * step;
+          const auto at = arc(angle), before = arc(angle - part), after = arc(angle + part);
+          EXPECT_NEAR(at.point.at.distance, world(angle).distance, 1e-14);
+          EXPECT_NEAR(at.slope, arc.slope(angle), 1e-13);
+          EXPECT_GE(at.point.at.distance, bound - 1e-14);
+          tightest = std::min(tightest, at.point.at.distance - bound);
+          // Where the nearest feature of the solid changes between, slopes have kinks.
+          if ((before.point.at.normal - after.point.at.normal).norm() > 100 * part ||
+              std::abs(before.rate - after.rate) > 0.01 * (1 + std::abs(at.rate)))
+            continue;
+          EXPECT_NEAR((after.point.at.distance - before.point.at.distance) / (2 * part * disk.half.x()), at.slope,
+                      1e-7);
+          if (std::isnan(at.rate))
+            continue;
+          EXPECT_NEAR((after.slope - before.slope) / (2 * part), at.rate, 1e-5 * (1 + std::abs(at.rate)))
+              << hull.name();
+          ++rates;
+        }
+      }
+    }
+  }
+  EXPECT_GT(rates, 5000);
+  EXPECT_GT(monotonic, 100);
+  EXPECT_LT(tightest, 1e-3); // it is reached
 }
 
 // Along paths in touch the force has no jump: the step of a path that changes it most is halved until it is short.
