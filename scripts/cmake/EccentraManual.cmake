@@ -12,9 +12,11 @@ if(SPHINX_BUILD)
   file(GLOB _pages CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/*.md" "${PROJECT_SOURCE_DIR}/docs/benchmarks/*.md")
   list(TRANSFORM ECCENTRA_PROGRAMS PREPEND "${PROJECT_BINARY_DIR}/man/" OUTPUT_VARIABLE _manuals)
   list(TRANSFORM _manuals APPEND .1)
-  add_custom_command(OUTPUT ${_manuals} DEPENDS "${PROJECT_SOURCE_DIR}/docs/conf.py" ${_pages}
+  list(TRANSFORM _manuals APPEND .gz OUTPUT_VARIABLE _packed)
+  add_custom_command(OUTPUT ${_manuals} ${_packed} DEPENDS "${PROJECT_SOURCE_DIR}/docs/conf.py" ${_pages}
     COMMAND "${SPHINX_BUILD}" -q -b man -d "${PROJECT_BINARY_DIR}/man/.doctrees" "${PROJECT_SOURCE_DIR}/docs" "${PROJECT_BINARY_DIR}/man"
+    COMMAND gzip -9nkf ${_manuals}
     COMMENT "Man pages" VERBATIM)
   add_custom_target(eccentra-man ALL DEPENDS ${_manuals})
-  install(FILES ${_manuals} DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
+  install(FILES ${_packed} DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
 endif()

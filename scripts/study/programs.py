@@ -17,6 +17,7 @@ INSTALLED = not (ROOT / "CMakeLists.txt").is_file()
 BUILD = ROOT.parent.parent if INSTALLED else ROOT / "build"  # programs are in its bin
 RESULTS = pathlib.Path.cwd() / "results" if INSTALLED else ROOT / "results"
 CASES = ROOT / "cases"
+RUN_CASE = BUILD / "bin" / "eccentra-run" if INSTALLED else CASES / "run-coupled"  # what runs a case
 SCENES = pathlib.Path(__file__).resolve().parent / "scenes"
 OPENFOAM = "/usr/share/openfoam"  # of Debian's package, where WM_PROJECT_DIR names no other installation
 HOSTS = ("liggghts", "libopenfoam", "libopenmpi3", "lammps", "yade")  # Debian packages whose code takes part in results

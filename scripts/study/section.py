@@ -74,7 +74,7 @@ def estimate_of(words, spheres):
 def case_digest(case=CASE):
     """Of all that the case's files say, and of the program that runs them."""
     files = sorted(file for file in case.rglob("*") if file.is_file() and not file.relative_to(case).parts[0].startswith("results"))
-    return digest_of(case.parent / "run-coupled", *files)
+    return digest_of(programs.RUN_CASE, *files)
 
 
 def section_job(build, name, words, share=0.5, spheres=1, keep=None):

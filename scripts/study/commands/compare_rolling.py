@@ -10,7 +10,7 @@ import statistics
 from .. import charts, dry, frames, levels, measures, options, programs, runs, section, tables
 from ..dry import SCENE, SEEDS
 from ..frames import DIAMETER, RADIUS
-from ..programs import CASES, digest_of, run
+from ..programs import RUN_CASE, digest_of, run
 
 TORSION_OFF = "torsionTorque off"
 ALL_SEEDS = 8
@@ -128,7 +128,7 @@ def section_job(chosen, name, seed):
         shutil.copytree(section.CASE, case, ignore=shutil.ignore_patterns("results*"))
         shutil.copy(SCENE / "in.section", case / "in.cuttings")
         shutil.rmtree(folder / "run", ignore_errors=True)
-        cpu, *_ = run([CASES / "run-coupled", case, "--bin", chosen.build / "bin", "--output", folder / "run",
+        cpu, *_ = run([RUN_CASE, case, "--bin", chosen.build / "bin", "--output", folder / "run",
                       *programs.options(here=SCENE, **words)], folder, folder / "out.txt")
         return result_of("section", frames.read_frames(folder / "run" / "frames.dump"), folder / "run", cpu, seed)
 

@@ -1,0 +1,46 @@
+# shellcheck shell=bash
+# SPDX-FileCopyrightText: Eccentra contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Roots of their own for test-on and test-package, which read this file. Both have `say` and `fail`.
+
+need_root_rights() { [ "$(id -u)" = 0 ] || fail "a root of its own needs root rights: call it as root, or with sudo"; }
+
+# release_of NAME: the name in Debian's archive.
+release_of() {
+  case "$1" in
+    debian12) echo bookworm ;;
+    debian13) echo trixie ;;
+    *) fail "which system: debian12 or debian13?" ;;
+  esac
+}
+
+# make_root RELEASE FOLDER FRESH LOG: a bare Debian, unless it is there.
+make_root() {
+  local archive
+  need_root_rights
+  command -v debootstrap >/dev/null || fail "debootstrap is missing: apt-get install debootstrap"
+  if [ "$3" = yes ]; then
+    grep -q " $2/" /proc/mounts && fail "something is mounted in $2: unmount it first"
+    rm -rf --one-file-system "$2"
+  fi
+  if [ ! -f "$2/.complete" ]; then
+    # shellcheck disable=SC2016 # apt replaces them
+    archive=$(apt-get indextargets --format '$(ORIGIN)|$(CODENAME)|$(REPO_URI)' 'Identifier: Packages' | sed -n 's/^Debian|[^|-]*|//p' | head -n 1)
+    [ -n "$archive" ] || fail "apt knows no Debian archive on this machine: add it to the apt sources and run apt-get update"
+    say "making a bare $1 in $2"
+    mkdir -p "$2"
+    debootstrap --variant=minbase --include=ca-certificates "$1" "$2" "$archive" >"$4" 2>&1 || fail "debootstrap failed ($(tail -n 1 "$4")); the log is $4"
+    touch "$2/.complete"
+  fi
+  cp /etc/resolv.conf /etc/hosts "$2/etc/" 2>/dev/null || :
+}
+
+# in_root FOLDER COMMAND: runs COMMAND there by bash. Mounts and processes end with it. Only the words of mpirun's root rights and the number of jobs go in.
+in_root() {
+  # shellcheck disable=SC2016 # the inner shell replaces them
+  unshare --mount --pid --fork bash -c '
+    mount --make-rprivate / && mount -t proc proc "$1/proc" && mount --rbind /dev "$1/dev" && mount -t sysfs sysfs "$1/sys" || exit 1
+    exec chroot "$1" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root TERM=dumb \
+      OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 ${3:+ECCENTRA_JOBS=$3} bash -c "$2"' \
+    - "$1" "$2" "${ECCENTRA_JOBS:-}" </dev/null
+}
