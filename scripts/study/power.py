@@ -9,6 +9,12 @@ REFERENCE_ERROR = 0.03  # standard error of the reference over its value
 DEVIATION_ERROR = 0.05  # standard error of each deviation, which is a share of the reference
 
 
+def widened(error, runs):
+    """A standard error from few runs as the 68 % interval of Student's distribution (to 2 % from three runs on): a pilot whose values lie
+    close to each other by chance would end the study too early."""
+    return error * (1 + 0.6 / (runs - 1)) if runs > 1 else error
+
+
 def seeds_wanted(values, reference, most, reference_error=REFERENCE_ERROR, deviation_error=DEVIATION_ERROR):
     """{level: number of seeds}, at most `most`, that bring the standard error of the reference below reference_error and those of the
     deviations below deviation_error. values: {level: {seed: value}}. Deviations are of pairs, so the reference has the seeds of all levels.
@@ -20,11 +26,11 @@ def seeds_wanted(values, reference, most, reference_error=REFERENCE_ERROR, devia
         return wanted
     for name, found in values.items():
         if name == reference:
-            wanted[name] = measures.runs_for(error, len(of), reference_error * abs(mean))
+            wanted[name] = measures.runs_for(widened(error, len(of)), len(of), reference_error * abs(mean))
             continue
         pairs = [(value, of[seed]) for seed, value in found.items() if seed in of]
         _, spread = measures.paired_deviation(pairs)
-        wanted[name] = max(len(found), measures.runs_for(spread, len(pairs), deviation_error))
+        wanted[name] = max(len(found), measures.runs_for(widened(spread, len(pairs)), len(pairs), deviation_error))
     wanted[reference] = max(wanted.values())
     return {name: min(most, number) for name, number in wanted.items()}
 

@@ -3,14 +3,13 @@
 """Which level of detail a user's shape needs in a user's scene: a paragraph, a chart and a table."""
 import math
 
-from . import charts, dry, forecast, level_study, levels, measures, power, runs, shape_levels, tables, truth_chart
+from . import annulus_scene, charts, dry, forecast, level_study, levels, measures, power, runs, section, shape_levels, tables, truth_chart
 from .programs import Failure
-
-UNITS = {"heap": "degrees", "drum": "degrees", "hopper": "bodies/s"}
 
 
 class UserStudy:
-    """ladder: shape_levels.Ladder; scene: user_scene.Scene, or None for the dry scenes by name; seeds: (pilot, most)."""
+    """ladder: shape_levels.Ladder; scene: user_scene.Scene, or None for our scenes by name (dry.SCENES, annulus_scene.NAMES); seeds: (pilot,
+    most)."""
 
     def __init__(self, store, build, ladder, scene, names, seeds, percent, few_bodies=True):
         self.store, self.build, self.ladder, self.scene = store, build, ladder, scene
@@ -20,31 +19,47 @@ class UserStudy:
     def run(self):
         """Runs what is not there yet; what failed, as sentences."""
         if self.scene is None:
-            jobs = {level.name: levels.step_job(self.build, level, level_study.RESTITUTION_DRY) for level in self.ladder.levels}
+            restitutions = {self.restitution(name) for name in self.names}
+            jobs = {(level.name, e): levels.step_job(self.build, level, e) for level in self.ladder.levels for e in restitutions}
             found = self.store.run_all("time steps", jobs.values())
-            for name, job in jobs.items():
+            for key, job in jobs.items():
                 if "failed" in found[job.key()]:
-                    raise Failure(f"the time step of {name}: {found[job.key()]['failed']}")
-                self.steps[name] = found[job.key()].get("critical", math.nan)
+                    raise Failure(f"the time step of {key[0]}: {found[job.key()]['failed']}")
+                self.steps[key] = found[job.key()].get("critical", math.nan)
         for name in self.names:
             self.run_scene(name)
         return self.failures
 
+    @staticmethod
+    def restitution(name):
+        return level_study.RESTITUTION_SECTION if name in annulus_scene.NAMES else level_study.RESTITUTION_DRY
+
+    def annulus(self, name):
+        """The scene of that name, or None where it is none of the annulus."""
+        reference = self.ladder.levels[-1].name
+        return annulus_scene.AnnulusScene(name, self.ladder.facts[reference]["sphericity"]) if name in annulus_scene.NAMES else None
+
     def job(self, name, level, seed):
         if self.scene:
             return self.scene.job(self.build, level, seed)
-        step, _ = levels.dividing_step(dry.FRAME, self.steps[level.name])
+        critical = self.steps[level.name, self.restitution(name)]
+        if name in annulus_scene.NAMES:
+            return self.annulus(name).job(self.build, level, seed, critical)
+        step, _ = levels.dividing_step(dry.FRAME, critical)
         return dry.dry_job(self.build, name, level, seed, dry.SCENES[name][4 if self.few_bodies else 3], step)
 
     def run_scene(self, name):
-        pilot, most = self.seeds
+        of_scene = section.SEEDS if name in annulus_scene.NAMES else dry.SEEDS
+        pilot, most = (min(number, len(of_scene)) for number in self.seeds)
+        value_of = self.annulus(name).value if name in annulus_scene.NAMES else lambda result: result["value"]
         wanted, reference = {level.name: pilot for level in self.ladder.levels}, self.ladder.levels[-1].name
-        known = [level for level in self.ladder.levels if self.scene or not math.isnan(self.steps[level.name])]  # with --show, of what was run
+        # With --show, those of which a time step is known.
+        known = [level for level in self.ladder.levels if self.scene or not math.isnan(self.steps[level.name, self.restitution(name)])]
         while True:
-            jobs = {(level.name, seed): self.job(name, level, seed) for level in known for seed in dry.SEEDS[: wanted[level.name]]}
+            jobs = {(level.name, seed): self.job(name, level, seed) for level in known for seed in of_scene[: wanted[level.name]]}
             found = self.store.run_all(name, jobs.values())
             of = {level.name: {seed: found[job.key()] for (at, seed), job in jobs.items() if at == level.name} for level in self.ladder.levels}
-            values = {at: {seed: r["value"] for seed, r in results.items() if runs.good(r)} for at, results in of.items()}
+            values = {at: {seed: value_of(r) for seed, r in results.items() if runs.good(r)} for at, results in of.items()}
             more = power.seeds_wanted(values, reference, most)
             if all(more[at] <= wanted[at] for at in wanted):
                 break
@@ -61,9 +76,9 @@ class UserStudy:
             value, error = measures.mean_and_error(list(values[level.name].values()))
             mean = lambda key: measures.mean_and_error([r[key] for r in good])[0]
             rows.append(level_study.Row(level, value, error, len(good), mean("cpu"), mean("wall"), {}, math.nan, {}, failed, values=values[level.name]))
-        title = f"{self.scene.script.name}: {self.scene.measure}" if self.scene else dry.SCENES[name][0]
-        group = level_study.Group(name, shape_levels.name_of(self.ladder.levels[-1].shape), title, "" if self.scene else UNITS[name], rows, True,
-                                  percent=self.percent)
+        title, unit = (f"{self.scene.script.name}: {self.scene.measure}", "") if self.scene else dry.SCENES[name][:2] if name in dry.SCENES \
+            else (self.annulus(name).title(), self.annulus(name).unit())
+        group = level_study.Group(name, shape_levels.name_of(self.ladder.levels[-1].shape), title, unit, rows, True, percent=self.percent)
         group.compare()
         return group
 

@@ -18,8 +18,8 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("ECCENTRA_BUILD", ROOT / "build"))
 sys.path.insert(0, str(ROOT / "scripts"))
-from study import (charts, convergence, ladders, level_study, levels, loop_data, measures, patch_walls, power, programs, runs,  # noqa: E402
-                   scene_bed, scene_grains, section, shape_levels, tables, timing, truth_chart, user_scene, wedge)
+from study import (annulus_scene, charts, convergence, ladders, level_study, levels, loop_data, measures, patch_walls, power, programs, runs,  # noqa: E402
+                   scene_bed, scene_grains, section, shape_levels, tables, timing, truth_chart, user_scene, user_study, wedge)
 from study.commands import creeping_drag  # noqa: E402
 
 
@@ -139,6 +139,10 @@ class Power(unittest.TestCase):
             self.assertLess(error / mean, 0.01 * 1.3)  # the pilot knows the spread to 13 %
             self.assertLess(measures.paired_deviation([(more["C8"][k], more["true"][k]) for k in range(wanted["C8"])])[1], 0.005 * 1.3)
             self.assertGreater(wanted["true"], 30)
+
+    def test_few_runs_are_not_trusted(self):
+        for number, student in ((3, 1.32), (4, 1.20), (6, 1.11), (12, 1.05)):  # quantiles of Student's distribution at one standard deviation
+            self.assertAlmostEqual(power.widened(1.0, number), student, delta=0.03)
 
     def test_limits(self):
         values = {"a": {1: 1.0, 2: 9.0}, "true": {1: 10.0, 2: 11.0}}
@@ -435,6 +439,64 @@ class UserScene(unittest.TestCase):
             self.assertEqual(json.loads(advice.stdout)["advice"][0]["level"], "sphere", advice.stderr)  # the cheapest
 
 
+class UserStudy(unittest.TestCase):
+    """The study itself, with results that are made up."""
+    class Store:
+        plan = False
+
+        def __init__(self, spread):
+            self.spread, self.ran = spread, set()
+
+        def run_all(self, title, jobs):
+            made = {}
+            for job in jobs:
+                self.ran.add(job.name)
+                value = (8.0 if "cube 8" in job.name else 10.0) + random.Random(job.name).gauss(0, self.spread)
+                made[job.key()] = {"critical": 1e-4, "contacts": 3} if "time step" in job.name else {
+                    "value": value, "mean": {"flux": (value * 1e-6, 0), "height": (value * 1e-3, 0)}, "cpu": 2.0 if "cube 8" in job.name else 5.0, "wall": 9.0}
+            return made
+
+    def study(self, spread, names):
+        ladder = shape_levels.Ladder([levels.Level("cube 8", "cluster", "cube 8", spheres=8), levels.smooth("cube", 0.15)],
+                                     {"smooth 0.15": {"sphericity": 0.85}}, [])
+        store = self.Store(spread)
+        study = user_study.UserStudy(store, BUILD, ladder, None, names, (3, 12), 5.0)
+        self.assertEqual(study.run(), [])
+        return study, store
+
+    def test_seeds_are_added_until_the_errors_are_small(self):
+        for spread, least, most in ((0.01, 3, 3), (0.6, 3, 12), (5.0, 12, 12)):
+            study, store = self.study(spread, ["drum"])
+            group, = study.groups
+            self.assertGreaterEqual(group.rows[-1].runs, least)
+            self.assertLessEqual(group.rows[-1].runs, most)
+            small = group.rows[-1].error < 0.03 * group.rows[-1].value and group.rows[0].deviation_error < 0.05
+            self.assertTrue(small or group.rows[-1].runs == 12, spread)
+            self.assertEqual("More seeds are needed" in group.plain_words(), not small)
+        self.assertEqual(len([name for name in store.ran if name.startswith("drum ")]), 24)
+
+    def test_annulus(self):
+        study, store = self.study(0.01, ["annulus-40", "annulus-80"])
+        flux, height = study.groups
+        self.assertAlmostEqual(flux.rows[-1].value, 10.0, delta=0.1)
+        self.assertEqual((flux.unit, height.unit), ("1e-6 m3/s", "mm"))
+        self.assertAlmostEqual(height.rows[0].deviation, -0.2, delta=0.01)
+        self.assertIn("annulus-40 cube 8 seed 49979687", store.ran)
+
+
+class AnnulusScene(unittest.TestCase):
+    def test_spheres_that_stand_for_a_shape_have_its_drag(self):
+        scene = annulus_scene.AnnulusScene("annulus-80", 0.854)
+        level = lambda kind, shape="sphere 1": levels.Level("x", kind, shape, mu=0.2)
+        words = lambda one: scene.job(BUILD, one, section.SEEDS[0], 1e-4).inputs
+        self.assertEqual(words(level("friction"))["sphericity"], "0.854")
+        self.assertNotIn("sphericity", words(level("smooth", "smooth cube rounding 0.15")))
+        self.assertEqual(words(level("smooth", "smooth cube rounding 0.15"))["shape"], "smooth cube rounding 0.15")
+        self.assertEqual((scene.unit(), scene.value({"mean": {"height": (0.011, 0), "flux": (1e-6, 0)}})), ("mm", 11.0))
+        flux = annulus_scene.AnnulusScene("annulus-0", 0.854)
+        self.assertAlmostEqual(flux.value({"mean": {"height": (0.011, 0), "flux": (2e-6, 0)}}), 2.0)
+
+
 class Overall(unittest.TestCase):
     def test_medians_over_scenes(self):
         def group(values):  # {level: (value, CPU seconds)}, the reference last
@@ -637,6 +699,7 @@ class Scripts(unittest.TestCase):
                 ("accuracy-cost", ["--shape", "cube", "--scene", "in.x"], "--scene needs --measure: a column of the thermo output"),
                 ("accuracy-cost", ["--shape", "cube", "--scene", "/nowhere", "--measure", "v_x"], "--scene /nowhere: No such file"),
                 ("accuracy-cost", ["--shape", "cube", "--scenes", "section"], "--scenes section is not there for --shape"),
+                ("accuracy-cost", ["--scenes", "annulus-40"], "--scenes annulus-40 belongs to --shape; expected section"),
                 ("accuracy-cost", ["--shape", "stl /nowhere.stl"], "clusterShape failed: "),
                 ("accuracy-cost", ["--shape", "stl a.stl spheres 4"], "give the numbers of spheres as --levels"),
                 ("accuracy-cost", ["--shape", "cube", "--levels", "spheres x"], "--levels: 'x' after 'spheres' is not a whole number"),

@@ -4,7 +4,7 @@
 import dataclasses
 import pathlib
 
-from .. import dry, level_study, levels, method_study, options, section, shape_levels, tables, user_scene, user_study
+from .. import annulus_scene, dry, level_study, levels, method_study, options, section, shape_levels, tables, user_scene, user_study
 
 ALL_POINTS = tuple((inclination, velocity) for inclination in (0, 40, 80) for velocity in (0.58, 0.72, 1.165))
 # Of dry scenes with --quick, and of the standard size; --levels names any, --full has all.
@@ -45,7 +45,7 @@ def check_shape(parser, words):
     if words.scene is not None and words.scenes is not None:
         parser.error("--scene and --scenes exclude each other: a script of your own, or scenes of ours")
     if "section" in (words.scenes or ()):
-        parser.error("--scenes section is not there for --shape; expected heap, drum or hopper, or your own coupled script as --scene")
+        parser.error(f"--scenes section is not there for --shape; expected {', '.join((*dry.SCENES, *annulus_scene.NAMES))}")
     words.share = 0.5 if words.share is None else words.share
     words.within = level_study.PERCENT if words.within is None else words.within
     if not 0 <= words.share <= 1:
@@ -83,7 +83,8 @@ def main():
     parser.add_argument("--parts", action=options.Words, choices=("levels", "methods"),
                         help="levels of detail; methods of the coupling (default: both)")
     parser.add_argument("--bodies", action=options.Words, choices=("cube", "disk"), help="what the levels stand for")
-    parser.add_argument("--scenes", action=options.Words, choices=SCENES, help="of the levels (default: all; with --shape: drum)")
+    parser.add_argument("--scenes", action=options.Words, choices=(*SCENES, *annulus_scene.NAMES),
+                        help="of the levels (default: heap, drum, hopper and section); with --shape: heap, drum (default), hopper, annulus-0, 40, 80")
     parser.add_argument("--inclinations", nargs="+", type=int, choices=(0, 40, 80), help="of the annulus (default: all)")
     parser.add_argument("--velocities", nargs="+", type=float, choices=(0.58, 0.72, 1.165), help="in the annulus [m/s] (default: all)")
     parser.add_argument("--levels", nargs="+", metavar="NAME", help="of the levels' names, such as S1 C8 (the reference is always run); "
@@ -115,6 +116,8 @@ def main():
         for name, default in OF_A_SHAPE.items():
             if getattr(words, name) != default:
                 parser.error(f"--{name} belongs to --shape: give the words of a shape, or leave it out")
+        if unknown := set(words.scenes or ()) - set(SCENES):
+            parser.error(f"--scenes {' '.join(sorted(unknown))} belongs to --shape; expected section, and --inclinations")
         words.scenes, words.parts = words.scenes or SCENES, words.parts or ("levels", "methods")
         words.size = SIZES["quick" if words.quick else "full" if words.full else "standard"]
         words.bodies = tuple(words.bodies or words.size.bodies)
@@ -124,7 +127,8 @@ def main():
                 parser.error(f"--levels names '{level}': there are {', '.join(sorted(known))}")
 
     annulus = ("annulusMesh", "annulusFoam", "annulusReport")
-    coupled = lambda w: w.shape is None and ("section" in (w.scenes or SCENES) or "methods" in (w.parts or ("methods",)))
+    coupled = lambda w: set(annulus_scene.NAMES) & set(w.scenes or ()) if w.shape is not None else (
+        "section" in (w.scenes or SCENES) or "methods" in (w.parts or ("methods",)))
     words = parser.settle(lambda w: ("eccentra-dem", "clusterShape") + (annulus if coupled(w) else ()), check)
     if words.shape is not None:
         return answer(words)
