@@ -104,6 +104,14 @@ class Prediction(unittest.TestCase):
         self.assertGreater(statistics.fmean(f.error for f in made), 0.2)  # the prediction knows how far off it is
         self.assertEqual(prediction.leave_one_out({"a": {}, "b": {}}, {}, self.DEFECTS), [])
 
+    def test_what_is_learned_is_learned_from_other_scenes(self):
+        # Each size is fitted by that of the other scene: a = 2 sum(v w) / sum(v^2 + w^2).
+        one = {"S1": 0.9, "C8": 0.2, "C27": 0.6}
+        other = {name: 1 - value for name, value in one.items()}
+        a, b, _ = prediction.learn({"a": one, "b": other}, dict.fromkeys(one, 0.0))
+        self.assertAlmostEqual(a, 2 * sum(v * (1 - v) for v in one.values()) / sum(v**2 + (1 - v) ** 2 for v in one.values()))
+        self.assertEqual(b, 0.0)
+
     def test_defect(self):
         self.assertEqual((prediction.defect(0.0, 0.5), prediction.defect(0.5, 0.5)), (1.0, 0.0))
 
