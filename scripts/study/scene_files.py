@@ -100,14 +100,23 @@ def draft_of(folder):
         shutil.rmtree(draft, ignore_errors=True)
 
 
+def write_scene(rows, files, draft):
+    """The file scene, and beside it the files that the shape names."""
+    text = scene_text(rows)
+    for file in files:
+        shutil.copy(file, draft)
+        text = text.replace(str(file), file.name)
+    (draft / "scene").write_text(text)
+
+
 def copy_system(case, draft):
     """Schemes and solvers of a case that is shipped."""
     for name in ("fvSchemes", "fvSolution", "decomposeParDict"):
         shutil.copy(CASES / case / "system" / name, draft / "system")
 
 
-def write(layout, folder):
-    """Makes the folder of a section or a well."""
+def write(layout, folder, files=()):
+    """Makes the folder of a section or a well; files: that the shape names, by absolute paths."""
     kind = layout.wishes.kind
     with draft_of(folder) as draft:
         shutil.copytree(SCENES / "new" / "fluid", draft)
@@ -120,7 +129,7 @@ def write(layout, folder):
             coupling = draft / "constant" / "couplingProperties"
             # A hole without grains has no mean diameter to take the length from.
             coupling.write_text(coupling.read_text().replace("diffusion;\n", "diffusion;\nlength          #eval{ 3 * $:scene.diameter };\n"))
-        (draft / "scene").write_text(scene_text(entries(layout)))
+        write_scene(entries(layout), files, draft)
         (draft / "in.cuttings").write_text(script_text(kind))
 
 
@@ -133,8 +142,8 @@ def plan_script(kind):
     return text + part(kind).replace("@GRAINS@\n", part("grains")).replace("@OUTPUT@\n", part("output"))
 
 
-def write_plan(plan, folder):
-    """Makes the folder of a heap, a drum or a bed."""
+def write_plan(plan, folder, files=()):
+    """Makes the folder of a heap, a drum or a bed; files: that the shape names, by absolute paths."""
     with draft_of(folder) as draft:
         if plan.kind == "bed":
             shutil.copytree(SCENES / "new" / "bed", draft)
@@ -142,5 +151,5 @@ def write_plan(plan, folder):
             copy_system("tomren-section", draft)
         else:
             draft.mkdir()
-        (draft / "scene").write_text(scene_text(plan.entries))
+        write_scene(plan.entries, files, draft)
         (draft / f"in.{plan.kind}").write_text(plan_script(plan.kind))

@@ -14,7 +14,7 @@ from .programs import BUILD, Failure
 GRAVITY = 9.81
 YIELD_WEIGHT = 7 * math.pi / 24  # of tau0 in the stress scale around a particle (Ansley and Smith 1967, docs/closures.md)
 # Measured seconds of one core (docs/eccentra.md): per grain and DEM step, and per cell and fluid step.
-GRAIN_STEP = {"sphere": 3e-7, "cluster": 5e-7}
+GRAIN_STEP = {"sphere": 3e-7, "cluster": 5e-7, "rounded": 2e-5}
 CELL_STEP = 8e-6
 
 
@@ -107,7 +107,8 @@ def two_digits_down(value):
 
 def run_time(grain, count, dem_steps, cells=0, fluid_steps=0):
     """Seconds of one core."""
-    return count * dem_steps * GRAIN_STEP["sphere" if grain.is_sphere else "cluster"] + cells * fluid_steps * CELL_STEP
+    kind = {"sphere": "sphere", "smooth": "rounded", "hull": "rounded"}.get(grain.shape.split()[0], "cluster")
+    return count * dem_steps * GRAIN_STEP[kind] + cells * fluid_steps * CELL_STEP
 
 
 def said_time(seconds):

@@ -18,8 +18,9 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("ECCENTRA_BUILD", ROOT / "build"))
 sys.path.insert(0, str(ROOT / "scripts"))
-from study import (annulus_scene, charts, convergence, ladders, level_study, levels, loop_data, measures, patch_walls, power, programs, runs,  # noqa: E402
-                   scene_bed, scene_grains, section, shape_levels, tables, timing, truth_chart, user_scene, user_study, wedge)
+from study import (annulus_scene, charts, convergence, grain_shapes, ladders, level_study, levels, loop_data, measures,  # noqa: E402
+                   patch_walls, power, programs, runs, scene_bed, scene_grains, section, shape_levels, tables, timing, truth_chart, user_scene,
+                   user_study, wedge)
 from study.commands import creeping_drag  # noqa: E402
 
 
@@ -203,6 +204,30 @@ class Walls(unittest.TestCase):
         for a, b in zip(again.points(), tube.points()):
             for x, y in zip(a, b):
                 self.assertAlmostEqual(x, y, places=11)
+
+
+class Grains(unittest.TestCase):
+    """The ten grains by name."""
+
+    def test_each_is_closed_and_convex_and_has_its_volume(self):
+        self.assertEqual(len(grain_shapes.GRAINS), 10)
+        for name in grain_shapes.GRAINS:
+            triangles = grain_shapes.triangles_of(name)
+            place = lambda p: tuple(round(c, 6) for c in p)
+            edges = [(place(a), place(b)) for _, t in triangles for a, b in zip(t, (*t[1:], t[0]))]
+            self.assertEqual(sorted(edges), sorted((b, a) for a, b in edges), name)
+            corners = {p for _, t in triangles for p in t}
+            for n, t in triangles:
+                level = sum(x * y for x, y in zip(n, t[0]))
+                self.assertLess(max(sum(x * y for x, y in zip(n, p)) for p in corners) - level, 1e-6, name)
+            surface, = patch_walls.read_stl(grain_shapes.stl_of(name, 5e-3))
+            self.assertAlmostEqual(grain_shapes.volume_of([(None, t) for t in surface.triangles]) / (math.pi / 6 * 5e-3**3), 1, places=6, msg=name)
+
+    def test_each_is_the_same_in_every_run(self):
+        self.assertEqual(grain_shapes.stl_of("flake", 4e-3), grain_shapes.stl_of("flake", 4e-3))
+        first, = patch_walls.read_stl(grain_shapes.stl_of("needle", 4e-3))
+        long, short = (max(p[d] for p in first.points()) - min(p[d] for p in first.points()) for d in (0, 2))
+        self.assertGreater(long, 2.5 * short)
 
 
 class Beds(unittest.TestCase):

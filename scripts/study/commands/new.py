@@ -4,8 +4,9 @@
 import argparse
 import pathlib
 import sys
+import tempfile
 
-from .. import scene_bed, scene_dry, scene_files, scene_grains, scene_layout
+from .. import grain_shapes, scene_bed, scene_dry, scene_files, scene_grains, scene_layout
 from ..annulus_flow import Mud
 from ..programs import Failure
 from ..units import (CONSISTENCY, DENSITY, FLOW, LENGTH, MASS_RATE, PENETRATION, SPEED, STIFFNESS, STRESS, VISCOSITY, both, positive, quantity)
@@ -118,7 +119,7 @@ def grain_options(new, diameter, restitution):
     grain = new.add_argument_group("grains")
     grain.add_argument("--shape", default="sphere",
                        help="sphere, or a shape of clusters or rounded bodies: \"cube 27\", \"disk 19\", \"smooth cube rounding 0.2\", "
-                       "\"file grain.clump\" (default: %(default)s)")
+                       "\"file grain.clump\", \"grain flake\" (a grain by name, see eccentra grain) (default: %(default)s)")
     grain.add_argument("--diameter", default=diameter, help="of the sphere of equal volume (default: 6.35mm; bed 4mm)")
     grain.add_argument("--solid-density", default="2619", help="(default: %(default)s kg/m3)")
     grain.add_argument("--stiffness", default="5e6", help="Young's modulus in the contacts (default: %(default)s Pa)")
@@ -247,10 +248,33 @@ def lines_of(rows):
     return [f"  {name:32} {value:52} {why}".rstrip() for name, value, why in rows]
 
 
+def with_files(shape, folder):
+    """The shape with absolute paths of its files, and these files. A grain by name becomes a file in `folder`: grain NAME [rounding R | spheres N]."""
+    parts = shape.split()
+    if parts[:1] == ["grain"]:
+        if len(parts) not in (2, 4) or parts[1] not in grain_shapes.GRAINS or (len(parts) == 4 and parts[2] not in ("rounding", "spheres")):
+            raise Failure(f"--shape: '{shape}' is not a grain; expected grain NAME, with 'rounding R' or 'spheres N' behind it, and NAME one of "
+                          f"{', '.join(grain_shapes.GRAINS)}")
+        file = pathlib.Path(folder) / f"{parts[1]}.stl"
+        file.write_text(grain_shapes.stl_of(parts[1], 4e-3))
+        parts = ["stl" if parts[2:3] == ["spheres"] else "hull", str(file), *(parts[2:] or ["rounding", "0.1"])]
+    if parts[:1] not in (["file"], ["stl"], ["hull"]) or len(parts) < 2 or not pathlib.Path(parts[1]).is_file():
+        return shape, []
+    file = pathlib.Path(parts[1]).resolve()
+    return " ".join([parts[0], str(file), *parts[2:]]), [file]
+
+
 def main():
     """Lays the scene out, prints it and writes the case."""
+    with tempfile.TemporaryDirectory(prefix="eccentra-new-") as folder:
+        return new(folder)
+
+
+def new(folder):
+    """With a folder for files of a while."""
     kind = next((word for word in sys.argv[1:] if word in KINDS), None)
     words = parser(None if {"-h", "--help"} & set(sys.argv[1:]) else kind).parse_args()
+    words.shape, files = with_files(words.shape, folder)
     if words.kind in ("section", "well"):
         layout = scene_layout.lay_out(wishes(words))
         lines, warnings = table(layout), layout.warnings
@@ -261,6 +285,6 @@ def main():
     for warning in warnings:
         sys.stdout.write(f"warning: {warning}\n")
     if not words.plan:
-        (scene_files.write if words.kind in ("section", "well") else scene_files.write_plan)(layout, words.name)
+        (scene_files.write if words.kind in ("section", "well") else scene_files.write_plan)(layout, words.name, files)
         sys.stdout.write(f"the case is in {words.name}; its numbers are in {words.name / 'scene'}. Run it: {words.name / 'run'}\n")
     return 0
