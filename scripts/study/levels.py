@@ -19,7 +19,7 @@ CUBES = (8, 27, 64, 125, 216, 512)
 DISKS = (7, 19, 48)  # built in
 RINGS = {80: 4, 120: 5, 224: 7}  # of finer disks
 # The body with true faces. Rounding, radius of the corners over half the smallest outer extent, is Wadell's roundness: 0.12 to 0.17 is "very
-# angular" in Powers' classes (1953), which grains fresh from a cut are. The disk's is the smallest whose radius bears the impacts as the cube's does.
+# angular" in Powers' classes (1953), as fresh fragments are taken to be. The disk's is the smallest whose radius bears the impacts as the cube's does.
 ROUNDING = {"cube": 0.15, "disk": 0.3}
 OTHER_ROUNDINGS = {"cube": (0.5, 0.3), "disk": (1.0, 0.6)}  # that show what the choice of the rounding does
 MIN_ROUNDING, MAX_ROUNDING = 0.01, 1.0  # that `shape smooth` takes
