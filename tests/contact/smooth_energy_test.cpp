@@ -3,6 +3,7 @@
 // Elastic impacts without friction of rounded bodies of all kinds: energy stays, up to the square of the time step.
 #include "contact/small_dem.h"
 #include "contact/test_bodies.h"
+#include "support/sanitized.h"
 
 #include <gtest/gtest.h>
 
@@ -54,7 +55,8 @@ Energy elastic_impacts(const Species& a, const Species& b, double dt, int count)
   return result;
 }
 
-void expect_elastic(const Species& a, const Species& b, int count, double bound, const char* name) {
+void expect_elastic(const Species& a, const Species& b, int impacts, double bound, const char* name) {
+  const int count = eccentra::test::repetitions(impacts, 10);
   const int few = std::min(count, 40); // for the comparison of steps
   const Energy fine = elastic_impacts(a, b, 2e-6, count), coarse = elastic_impacts(a, b, 4e-6, few);
   const Energy same = few < count ? elastic_impacts(a, b, 2e-6, few) : fine;

@@ -4,6 +4,7 @@
 #include "contact/gjk.h"
 #include "contact/small_dem.h"
 #include "contact/test_bodies.h"
+#include "support/sanitized.h"
 
 #include <gtest/gtest.h>
 
@@ -78,14 +79,15 @@ TEST(SmoothMotion, RestsOnAPlane) {
     }
 }
 
-/// Drift from 1 to 2 s of a tower of ten, in parts of the height of one; top over the height when built.
+/// Drift from 1 to 2 s of a tower of ten (with sanitizers four), in parts of the height of one; top over the height
+/// when built.
 std::pair<double, double> tower(const Species& s, double half, double offset, double twist, bool crossed, double dt) {
   SmallDem dem(Material{});
   dem.dt = dt;
   dem.gravity = 9.81;
   dem.planes.push_back({Vector3d::UnitZ(), 0});
   Random r(2);
-  constexpr int high = 10;
+  constexpr int high = eccentra::test::repetitions(10, 4);
   for (int k = 0; k < high; ++k) {
     const double turn = crossed ? k % 2 * M_PI / 4 : twist * r.uniform(-1, 1);
     dem.add(s, {offset * half * r.uniform(-1, 1), offset * half * r.uniform(-1, 1), (2 * k + 1) * half * 1.002},
@@ -122,8 +124,8 @@ TEST(SmoothMotion, TowersStand) {
   const auto disks = tower(disk, thick, 0.1, 0.2, false, 4e-5);
   EXPECT_LT(disks.first, 0.05);
   EXPECT_GT(disks.second, 0.97);
-  std::printf("towers of ten, drift in 1 s over the edge: square %.1e, crossed %.1e, offset %.1e, disks %.1e\n",
-              square.first, crossed.first, offset.first, disks.first);
+  std::printf("towers, drift in 1 s over the edge: square %.1e, crossed %.1e, offset %.1e, disks %.1e\n", square.first,
+              crossed.first, offset.first, disks.first);
 }
 
 TEST(SmoothMotion, SlidesWhereFrictionEnds) {
@@ -182,7 +184,7 @@ TEST(SmoothMotion, FallsLeaveNothingStuck) {
     Random r(3);
     int stuck = 0, deep = 0;
     double fastest = 0;
-    constexpr int falls = 20;
+    constexpr int falls = eccentra::test::repetitions(20, 4);
     for (int n = 0; n < falls; ++n) {
       SmallDem dem(Material{});
       dem.dt = 2e-5;
@@ -215,7 +217,7 @@ TEST(SmoothMotion, BodiesPutIntoEachOtherComeApart) {
     Random r(21);
     int stuck = 0;
     double fastest = 0;
-    constexpr int count = 40;
+    constexpr int count = eccentra::test::repetitions(40, 8);
     for (int n = 0; n < count; ++n) {
       SmallDem dem(Material{});
       dem.dt = 1e-5;
