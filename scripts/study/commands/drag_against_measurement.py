@@ -30,7 +30,7 @@ def panel(law, values, points):
 
 def main():
     parser = options.Parser("drag-against-measurement", "Compares the drag laws of fix fluid/force with measured drag coefficients of bodies that fall "
-                            "freely: geometric bias, logarithmic rms and share within 25 %% of law over measured.", at_once=1)
+                            "freely: geometric bias, logarithmic rms and share within 25 % of law over measured.", at_once=1)
     parser.add_argument("--data", type=pathlib.Path, default=drag_points.DEFAULT, metavar="CSV",
                         help="points with the columns " + ", ".join(drag_points.COLUMNS) +
                              " (default: ../shared/data/drag_test_points.csv, beside the checkout)")
