@@ -27,11 +27,13 @@ install(FILES "${PROJECT_BINARY_DIR}/generated/copyright" "${PROJECT_BINARY_DIR}
 # What lintian reports and what is meant so.
 file(WRITE "${PROJECT_BINARY_DIR}/generated/eccentra/overrides" "# The project has no mail address.
 eccentra: bogus-mail-host Maintainer *
+eccentra: bogus-mail-host-in-debian-changelog *
 # The library calls functions of MPI alone.
 eccentra: library-not-linked-against-libc [usr/lib/libeccentra_mpi_clock.so]
 ")
 file(WRITE "${PROJECT_BINARY_DIR}/generated/eccentra-dev/overrides" "# The project has no mail address.
 eccentra-dev: bogus-mail-host Maintainer *
+eccentra-dev: bogus-mail-host-in-debian-changelog *
 ")
 set(_overrides "${CMAKE_INSTALL_DATADIR}/lintian/overrides")
 install(FILES "${PROJECT_BINARY_DIR}/generated/eccentra/overrides" DESTINATION "${_overrides}" RENAME eccentra)
@@ -44,8 +46,8 @@ set(CPACK_PACKAGE_CONTACT "${_contact}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Non-spherical particles in dense flows of yield-stress fluids")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_COMPONENT_UNSPECIFIED_DESCRIPTION "LIGGGHTS styles for clusters of spheres and rounded convex bodies, a solver for the flow around\nthem on OpenFOAM, and programs that make cases, run them and report.")
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, static libraries and CMake targets: closures, contact laws, shapes and the link between\ntwo solvers.")
+set(CPACK_COMPONENT_UNSPECIFIED_DESCRIPTION "LIGGGHTS styles for clusters of spheres and rounded convex bodies, a solver\nfor the flow around them on OpenFOAM, and programs that make cases, run them\nand report.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, static libraries and CMake targets: closures, contact laws, shapes and\nthe link between two solvers.")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
