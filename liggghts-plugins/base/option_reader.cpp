@@ -31,6 +31,8 @@ void OptionReader::unknown(const std::string& known) const {
 }
 
 const std::string& OptionReader::value(const std::string& expected) {
+  if (!more() && at_ > 0 && arguments_[at_ - 1] != keyword_)
+    refuse("keyword '{}': the line ends after '{}'; expected {}", keyword_, arguments_[at_ - 1], expected);
   if (!more())
     refuse("keyword '{}' is the last word; expected {} after it", keyword_, expected);
   return arguments_[at_++];

@@ -3,6 +3,7 @@
 // Reads the arguments of fix particletemplate/cluster and fills what stock fix insert/* places.
 #include "styles/bodies/fix_particletemplate_cluster.h"
 
+#include "base/option_reader.h"
 #include "shape/shape_keywords.h"
 #include "styles/bodies/cluster_to_insert.h"
 #include "styles/bodies/fix_cluster_bodies.h"
@@ -19,6 +20,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <stdexcept>
 
 namespace eccentra::styles {
@@ -88,9 +90,9 @@ bool is_keyword(const std::string& word) {
 }
 
 bool is_number(const char* word, double& value) {
-  char* end = nullptr;
-  value = std::strtod(word, &end);
-  return end != word && !*end && std::isfinite(value);
+  const std::optional<double> read = base::finite_number(word);
+  value = read.value_or(0);
+  return read.has_value();
 }
 
 } // namespace

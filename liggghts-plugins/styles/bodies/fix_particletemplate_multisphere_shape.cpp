@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // fix particletemplate/multisphere/shape: our shapes, with their exact mass and inertia, for stock fix multisphere.
+#include "base/option_reader.h"
+#include "base/refusal.h"
 #include "shape/cluster_shape.h"
 #include "shape/shape_keywords.h"
 #include "styles/entry/printed_notes.h"
@@ -36,21 +38,6 @@ std::string exact(double value) {
   return text;
 }
 
-double number_after(const std::vector<std::string>& arguments, std::size_t at, const std::string& name) {
-  if (at >= arguments.size())
-    throw std::invalid_argument("the line ends where a number for " + name + " was expected");
-  std::size_t used = 0;
-  double value = 0.0;
-  try {
-    value = std::stod(arguments[at], &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used != arguments[at].size() || !(value > 0.0) || value > 1e300)
-    throw std::invalid_argument(name + " must be a number > 0, not '" + arguments[at] + "'");
-  return value;
-}
-
 /// Words of the line after the seed, taken apart.
 struct TemplateArguments {
   std::vector<std::string> before; ///< arguments of all stock templates, passed on as they are
@@ -67,33 +54,37 @@ bool is_pass_through(const std::string& word) {
 
 TemplateArguments take_apart(const std::vector<std::string>& arguments) {
   TemplateArguments parts;
-  std::size_t at = 0;
-  for (; at < arguments.size() && arguments[at] != "shape"; ++at) {
-    if (arguments[at] == "density") {
-      if (at + 1 >= arguments.size() || arguments[at + 1] != "constant")
-        throw std::invalid_argument("density must be 'density constant VALUE': bodies of one template are alike");
-      parts.density = number_after(arguments, at + 2, "density");
-    }
-    parts.before.push_back(arguments[at]);
+  base::OptionReader reader(arguments);
+  while (reader.more() && reader.peek() != "shape") {
+    const std::string& word = parts.before.emplace_back(reader.keyword());
+    if (word != "density")
+      continue;
+    if (const std::string& kind = reader.value("constant VALUE"); kind != "constant")
+      base::refuse("keyword 'density': '{}' is not 'constant'; expected density constant VALUE, because bodies of one "
+                   "template are alike",
+                   kind);
+    parts.density = reader.positive("the density [kg/m3]");
+    parts.before.insert(parts.before.end(), {"constant", exact(parts.density)});
   }
-  if (at == arguments.size())
-    throw std::invalid_argument("no shape is given: add, for example, 'shape cube 64 diameter 6.35e-3'");
+  if (!reader.more())
+    base::refuse("no shape is given; expected one, for example 'shape cube 64 diameter 6.35e-3'");
   if (parts.density == 0.0)
-    throw std::invalid_argument("no density is given: add 'density constant VALUE' before 'shape'");
-  for (++at; at < arguments.size() && arguments[at] != "diameter" && !is_pass_through(arguments[at]); ++at)
-    parts.shape.push_back(arguments[at]);
-  if (at < arguments.size() && arguments[at] == "diameter") {
-    parts.diameter = number_after(arguments, at + 1, "diameter");
-    at += 2;
+    base::refuse("no density is given; expected 'density constant VALUE' before 'shape'");
+  reader.keyword();
+  while (reader.more() && reader.peek() != "diameter" && !is_pass_through(reader.peek()))
+    parts.shape.push_back(reader.keyword());
+  if (reader.more() && reader.peek() == "diameter") {
+    reader.keyword();
+    parts.diameter = reader.positive("the diameter [m]");
   }
-  for (; at < arguments.size(); ++at) {
-    parts.has_type = parts.has_type || arguments[at] == "type";
-    parts.after.push_back(arguments[at]);
+  if (reader.more() && !is_pass_through(reader.peek())) {
+    reader.keyword();
+    reader.unknown("diameter, type, fflag, tflag");
   }
-  if (!parts.after.empty() && !is_pass_through(parts.after.front()))
-    throw std::invalid_argument("unknown word '" + parts.after.front() +
-                                "' after the shape: diameter, type, fflag and "
-                                "tflag are there");
+  while (reader.more()) {
+    parts.has_type = parts.has_type || reader.peek() == "type";
+    parts.after.push_back(reader.keyword());
+  }
   return parts;
 }
 
@@ -128,7 +119,7 @@ Fix* create(LAMMPS* lmp, int narg, char** arg) {
     const shape::ClusterShape shape = shape::make_shape(parts.shape, 0, used, parts.diameter, notes);
     if (used != parts.shape.size())
       throw std::invalid_argument("unknown word '" + parts.shape[used] + "' after the shape");
-    styles::print_notes(lmp, where.substr(0, where.size() - 2), notes);
+    print_notes(lmp, where.substr(0, where.size() - 2), notes);
     if (shape.hull())
       throw std::invalid_argument("shape '" + shape.name() +
                                   "' is a rounded body, which fix multisphere does not know; expected spheres: use "
@@ -150,8 +141,8 @@ Fix* create(LAMMPS* lmp, int narg, char** arg) {
   }
 }
 
-const styles::RegisterStyle record({"fix", "particletemplate/multisphere/shape",
-                                    "our shapes with exact mass properties for stock fix multisphere", &create});
+const RegisterStyle record({"fix", "particletemplate/multisphere/shape",
+                            "our shapes with exact mass properties for stock fix multisphere", &create});
 
 } // namespace
 

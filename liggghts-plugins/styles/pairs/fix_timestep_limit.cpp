@@ -34,20 +34,12 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-const styles::RegisterFix<FixTimestepLimit> record("timestep/limit",
-                                                   "largest stable time step from contacts, mass and inertia");
+const RegisterFix<FixTimestepLimit> record("timestep/limit",
+                                           "largest stable time step from contacts, mass and inertia");
 
 // A limit that has moved by less than this is not worth another line in the log.
 constexpr double kReportChange = 0.1;
 constexpr double kNever = std::numeric_limits<double>::infinity();
-
-double number(const char* word, const std::string& name) {
-  char* end = nullptr;
-  const double value = std::strtod(word, &end);
-  if (end == word || *end || !(value > 0.0) || !std::isfinite(value))
-    throw std::invalid_argument(name + " must be a number > 0, not '" + word + "'");
-  return value;
-}
 
 std::string short_number(double value) {
   char text[32];
@@ -60,27 +52,19 @@ std::string short_number(double value) {
 FixTimestepLimit::FixTimestepLimit(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {
   nevery = 1000;
   try {
-    for (int at = 3; at < narg; at += 2) {
-      const std::string word = arg[at];
-      if (at + 1 >= narg)
-        throw std::invalid_argument("the line ends where a value for '" + word + "' was expected");
-      const char* value = arg[at + 1];
-      if (word == "safety") {
-        safety_ = number(value, word);
-      } else if (word == "speed") {
-        speed_ = number(value, word);
-      } else if (word == "every") {
-        const double steps = number(value, word);
-        if (steps != std::floor(steps) || steps > std::numeric_limits<int>::max())
-          throw std::invalid_argument("every must be a whole number of steps, not '" + std::string(value) + "'");
-        nevery = static_cast<int>(steps);
-      } else if (word == "enforce") {
-        base::OptionReader reader({word, value});
-        reader.keyword();
+    base::OptionReader reader({arg + 3, arg + narg});
+    while (reader.more()) {
+      const std::string& word = reader.keyword();
+      if (word == "safety")
+        safety_ = reader.positive();
+      else if (word == "speed")
+        speed_ = reader.positive();
+      else if (word == "every")
+        nevery = reader.count(1, "steps");
+      else if (word == "enforce")
         enforce_ = reader.on_off();
-      } else {
-        throw std::invalid_argument("unknown word '" + word + "': safety, every, enforce and speed are there");
-      }
+      else
+        reader.unknown("safety, every, enforce, speed");
     }
   } catch (const std::invalid_argument& problem) {
     fail(problem.what());
