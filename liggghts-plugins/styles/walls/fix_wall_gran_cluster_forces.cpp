@@ -56,8 +56,15 @@ Eigen::Vector3d FixWallGranCluster::rolling_torque(const Block& block, int m, in
                                                    const Eigen::Vector3d& wall_spin, contact::WallHistoryEntry& entry) {
   const Eigen::Vector3d normal(block.normal[0][m], block.normal[1][m], block.normal[2][m]);
   const Eigen::Vector3d force(block.force[0][m], block.force[1][m], block.force[2][m]);
+  double lever = block.radius_a[m];
+  if (arguments_.rolling_radius == RollingRadius::body) {
+    const Eigen::Vector3d to_centre(block.arm[0][m], block.arm[1][m], block.arm[2][m]);
+    lever = (to_centre - (lever - 0.5 * block.overlap[m]) * normal).norm();
+  }
+  // Dampers of rolling go with the root of the inertia.
+  const double share = arguments_.shared && groups_ > 0 ? block.share[m] : 1;
   return arguments_.rolling->torque(
-      {i, atom->type[i], wall_type, block.mass[m], block.kn[m], block.kn[m] * block.overlap[m], block.radius_a[m],
+      {i, atom->type[i], wall_type, block.mass[m] * share * share, block.kn[m], block.kn[m] * block.overlap[m], lever,
        normal, base::vector3(atom->omega[i]) - wall_spin, wall_spin, entry.rolling.data(), !update->setupflag,
        force.dot(normal), block.kt[m], block.gamma_n[m], block.gamma_t[m]});
 }

@@ -199,7 +199,7 @@ void complete(WallArguments& arguments, bool friction_bound, bool tangential_upd
 WallArguments read_wall_arguments(const std::vector<std::string>& all) {
   WallArguments arguments;
   Reader reader(all);
-  bool friction_bound = false, tangential_update = false;
+  bool friction_bound = false, tangential_update = false, rolling_radius = false;
   reader.expect("model");
   arguments.names.normal = read_model(reader, "model");
   while (!reader.done()) {
@@ -216,6 +216,7 @@ WallArguments read_wall_arguments(const std::vector<std::string>& all) {
       tangential_update = true;
       arguments.synchronised = reader.choose(word, "synchronised", "stock");
     } else if (word == "rolling_radius") {
+      rolling_radius = true;
       arguments.rolling_radius =
           reader.choose(word, "body", "sub_sphere") ? RollingRadius::body : RollingRadius::sub_sphere;
     } else if (contact::is_switch_of_a_model(word)) {
@@ -260,6 +261,9 @@ WallArguments read_wall_arguments(const std::vector<std::string>& all) {
     }
   }
   complete(arguments, friction_bound, tangential_update);
+  if (rolling_radius && !arguments.rolling)
+    throw std::invalid_argument("rolling_radius: there is no rolling friction; expected rolling_friction with a model, "
+                                "or no rolling_radius");
   if (!arguments.surface && arguments.meshes.empty())
     throw std::invalid_argument("no wall is given: add 'primitive type T zplane Z' or 'mesh n_meshes 1 meshes ID'");
   return arguments;
