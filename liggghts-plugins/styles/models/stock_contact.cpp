@@ -137,6 +137,7 @@ struct StockContact::Models {
   stock::SurfacesIntersectData data{};
   stock::ForceData on_a, on_b;
   std::vector<double> scratch;
+  std::vector<double*> rows; ///< of VelocitiesOfSides
   int flags = 0;
   LAMMPS_NS::FixPropertyAtom* liquid_flux = nullptr; ///< of a model of liquid bridges
 
@@ -319,10 +320,41 @@ void StockContact::tangential(const StockSubContact& c) {
   data.Fn = whole;
 }
 
+namespace {
+
+/// While it lives, the array of velocities has those of a sub-contact's two sides in the rows that stand for them:
+/// easo/capillary/viscous takes them from there, where those of the bodies' centres are, and of a wall nothing.
+class VelocitiesOfSides {
+ public:
+  VelocitiesOfSides(LAMMPS_NS::Atom& atom, std::vector<double*>& rows, const StockSubContact& c)
+      : atom_(atom), before_(atom.v) {
+    const int before_first = atom.ntypes + 1; // a wall is minus its type
+    const std::size_t length = before_first + static_cast<std::size_t>(std::max({c.a, c.b, atom.nmax})) + 1;
+    if (rows.size() < length)
+      rows.resize(length);
+    std::copy_n(c.velocity_a, 3, a_);
+    std::copy_n(c.velocity_b, 3, b_);
+    rows[before_first + c.a] = a_;
+    rows[before_first + c.b] = b_;
+    atom_.v = rows.data() + before_first;
+  }
+  ~VelocitiesOfSides() { atom_.v = before_; }
+  VelocitiesOfSides(const VelocitiesOfSides&) = delete;
+  VelocitiesOfSides& operator=(const VelocitiesOfSides&) = delete;
+
+ private:
+  LAMMPS_NS::Atom& atom_;
+  double** before_;
+  double a_[3], b_[3];
+};
+
+} // namespace
+
 /// Sub-spheres that do not touch. Liquid that a bridge moves is counted per volume of a sub-sphere, of which a body has
 /// more than one.
 void StockContact::close(const StockSubContact& c) {
   Models& m = *models_;
+  const VelocitiesOfSides in_place(*lmp_->atom, m.rows, c);
   double *flux_a = nullptr, *flux_b = nullptr, before_a = 0, before_b = 0;
   if (m.liquid_flux && c.volume_a > 0)
     before_a = *(flux_a = m.liquid_flux->vector_atom + c.a);
