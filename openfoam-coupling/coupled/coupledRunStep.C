@@ -73,6 +73,9 @@ void coupledRun::runIn() {
   const label index = time_.timeIndex();
   const scalar usual = time_.deltaTValue();
   time_.setDeltaT(step, false);
+  // Before the start: OpenFOAM would take the times at which fields are due as passed, and boundary conditions that
+  // change in time would be those of a later time.
+  time_.setTime(start - (steps + 1) * step, index); // half a step beyond the last one counts as well
   const quiet silence(verbose_);
   for (label i = 0; i < steps; ++i) {
     ++time_;

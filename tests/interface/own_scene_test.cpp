@@ -57,8 +57,11 @@ TEST_F(OwnScene, SectionOfClustersRunsAndTakesEachNumberFromOnePlace) {
       EXPECT_EQ(contents(folder / "mine" / file).find(number), std::string::npos) << number << " in " << file;
   }
 
+  const fs::path control = folder / "mine/system/controlDict";
+  write_file(control, std::regex_replace(contents(control), std::regex("writeInterval +0.5"), "writeInterval 0.02"));
   const ProgramResult run = in_folder({"mine/run", "--output", "fast", "--rpm", "180", "--ranks", "2"});
   ASSERT_EQ(run.status, 0) << run.output;
+  EXPECT_TRUE(fs::is_regular_file(folder / "fast/0.02/U")) << "the run-in takes no times of output from the run";
   EXPECT_NE(contents(folder / "fast/scene").find("rpm               180;"), std::string::npos);
   EXPECT_NE(contents(folder / "mine/scene").find("rpm               120;"), std::string::npos)
       << "the case itself stays";
