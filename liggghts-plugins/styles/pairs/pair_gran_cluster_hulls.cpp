@@ -5,6 +5,7 @@
 #include "styles/pairs/hull_contacts.h"
 #include "styles/pairs/pair_gran_cluster.h"
 
+#include "atom.h"
 #include "error.h"
 #include "update.h"
 
@@ -25,6 +26,27 @@ constexpr double kMaxSunk = 0.9;
 int real_contacts(const std::vector<contact::Contact>& all, int first, int last) {
   return static_cast<int>(
       std::count_if(all.begin() + first, all.begin() + last, [](const contact::Contact& c) { return !c.elastic; }));
+}
+
+/// The row of a contact that is an elastic force alone.
+ContactRecord record_of(const contact::Contact& contact, const NearPair& near, const Eigen::Vector3d& force,
+                        const Eigen::Vector3d& torque) {
+  ContactRecord row = {};
+  row.a = near.a;
+  row.b = near.b;
+  row.sub_a = contact::feature_a(contact.id);
+  row.sub_b = contact::feature_b(contact.id);
+  row.overlap = contact.overlap();
+  row.radius_a = contact.radius_a;
+  row.radius_b = contact.reach - contact.radius_a;
+  const Eigen::Vector3d arm = contact.contact_point();
+  for (int k = 0; k < 3; ++k) {
+    row.arm[k] = arm[k];
+    row.normal[k] = contact.normal[k];
+    row.force[k] = force[k];
+    row.torque[k] = torque[k];
+  }
+  return row;
 }
 
 } // namespace
@@ -128,8 +150,11 @@ void PairGranCluster::add_hull_pair(Block& c, WaitingPair& waiting, const contac
     if (contact.elastic) {
       const Eigen::Vector3d force = 4. / 3 * youngs * stiffness * overlap * contact.normal;
       correction.force += force;
-      correction.torque += contact.contact_point().cross(force);
+      const Eigen::Vector3d torque = contact.contact_point().cross(force);
+      correction.torque += torque;
       corrected = true;
+      if (records_ && near.a < atom->nlocal)
+        records_->rows.push_back(record_of(contact, near, force, torque));
       continue;
     }
     for (int k = 0; k < 3; ++k) {
@@ -137,6 +162,7 @@ void PairGranCluster::add_hull_pair(Block& c, WaitingPair& waiting, const contac
       c.arm[k][m] = contact.arm[k];
     }
     c.radius_a[m] = contact.radius_a;
+    c.radius_b[m] = contact.reach - contact.radius_a; // for outputs alone
     c.overlap[m] = overlap;
     c.contact_radius[m] = stiffness;
     c.curvature[m] = 0;

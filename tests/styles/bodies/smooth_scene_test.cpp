@@ -7,6 +7,9 @@
 #include "shape/drawn_surface.h"
 #include "shape/rounded_hull.h"
 
+#include "compute.h"
+#include "modify.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -231,6 +234,40 @@ TEST(SmoothScene, MixedBedSettlesAndRestartsToTheDigit) {
     }
   }
   EXPECT_EQ(end[0], end[1]);
+}
+
+// Rows of compute contact/cluster/local add up to the forces on the bodies, with those that hand a spring over.
+TEST(SmoothScene, RowsOfContactsAddUp) {
+  LiggghtsSession session;
+  open_box(session, Material());
+  use_clusters(session);
+  fill(session);
+  session.script(forces);
+  session.script("compute c all contact/cluster/local of all id force torque delta contactArea\n"
+                 "compute rows all reduce sum c_c[1]\nthermo_style custom step c_rows\nthermo 100\nrun 3000\n");
+  const LAMMPS_NS::Compute& contacts = *session.lammps().modify->compute[session.lammps().modify->find_compute("c")];
+  const int bodies = session.atom().nlocal;
+  std::vector<Vector3d> sum(bodies, Vector3d::Zero());
+  int rows = 0;
+  // Columns: id 0-2, force 3-5, torque 6-8, area 9, overlap 10.
+  for (int n = 0; n < contacts.size_local_rows; ++n) {
+    const double* row = contacts.array_local[n];
+    const Vector3d force(row[3], row[4], row[5]);
+    sum[session.local(static_cast<int>(row[0]))] += force;
+    if (row[1] > 0) {
+      sum[session.local(static_cast<int>(row[1]))] -= force;
+      // Of two spheres that overlap a little: 2 pi R* delta; radii from a cube's corners to the spheres'.
+      EXPECT_GT(row[9], 2 * M_PI * 1e-4 * row[10]);
+      EXPECT_LT(row[9], 2 * M_PI * 2e-3 * row[10]);
+    }
+    ++rows;
+  }
+  EXPECT_GT(rows, 40);
+  for (int i = 0; i < bodies; ++i) {
+    Vector3d acting = Eigen::Map<Vector3d>(session.atom().f[i]);
+    acting.z() += 9.81 * session.atom().rmass[i];
+    EXPECT_LT((sum[i] - acting).norm(), 1e-10) << session.atom().tag[i];
+  }
 }
 
 // The ridge of a mesh under the middle of a face: the edges of the face bounce off it as off a body.
