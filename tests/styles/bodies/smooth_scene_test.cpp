@@ -244,7 +244,7 @@ TEST(SmoothScene, RowsOfContactsAddUp) {
   fill(session);
   session.script(forces);
   session.script("compute c all contact/cluster/local of all id force torque delta contactArea\n"
-                 "compute rows all reduce sum c_c[1]\nthermo_style custom step c_rows\nthermo 100\nrun 3000\n");
+                 "compute rows all reduce sum c_c[1]\nthermo_style custom step c_rows\nthermo 100\nrun 15000\n");
   const LAMMPS_NS::Compute& contacts = *session.lammps().modify->compute[session.lammps().modify->find_compute("c")];
   const int bodies = session.atom().nlocal;
   std::vector<Vector3d> sum(bodies, Vector3d::Zero());
@@ -264,6 +264,8 @@ TEST(SmoothScene, RowsOfContactsAddUp) {
   }
   EXPECT_GT(rows, 40);
   for (int i = 0; i < bodies; ++i) {
+    if (session.atom().tag[i] % 5 == 2) // disks: walls do not list their elastic forces
+      continue;
     Vector3d acting = Eigen::Map<Vector3d>(session.atom().f[i]);
     acting.z() += 9.81 * session.atom().rmass[i];
     EXPECT_LT((sum[i] - acting).norm(), 1e-10) << session.atom().tag[i];
