@@ -100,6 +100,7 @@ void coupledRun::resumeFrom(const link::CheckpointMark& mark) {
   flow_->resume(facts.get<scalar>("drive"));
   requests_.resume(unsigned(facts.get<label>("asked")));
   const dictionary report = facts.subDict("report");
+  couplingReport::head(*flow_);
   startFunctionObjects(time_);
   report_ = std::make_unique<couplingReport>(mesh_, dem_, reportEvery(), &report);
 }

@@ -95,7 +95,7 @@ void coupledRun::exchangeAhead(const link::CouplingStep& couplingStep, const lin
   seconds.exchange = watch.lap();
   const vector onItsWay(interval_ * flow_->rho() *
                         gSum(vectorField(mesh_.V() * flow_->particleForce().primitiveField())));
-  report_->add(*flow_, *exchange_, couplingStep, seconds, onItsWay);
+  report_->add(*flow_, *exchange_, couplingStep, particles, seconds, onItsWay);
 }
 
 } // namespace eccentra

@@ -112,6 +112,7 @@ void coupledRun::begin(const link::CouplingStep& couplingStep, const link::Parti
   makeExchange(couplingStep);
   exchange_->locate(particles);
   checkInside(couplingStep);
+  couplingReport::head(*flow_);
   runIn();
   startFunctionObjects(time_);
   report_ = std::make_unique<couplingReport>(mesh_, dem_, reportEvery());
@@ -237,7 +238,7 @@ void coupledRun::exchangeInTurn(const link::CouplingStep& couplingStep, const li
   if (advances)
     flow_->takeBack(exchange_->untold() * (interval_ / (time_.deltaTValue() * flow_->rho())));
   seconds.exchange += watch.lap();
-  report_->add(*flow_, *exchange_, couplingStep, seconds, Zero);
+  report_->add(*flow_, *exchange_, couplingStep, particles, seconds, Zero);
   if (due)
     writer_.writeNow();
 }

@@ -4,7 +4,9 @@
 #include "coupled/couplingReport.H"
 
 #include "flow/flowMeasures.H"
+#include "rheology/particle_reynolds.h"
 #include "support/inputError.H"
+#include "support/rankSums.H"
 
 #include "OSspecific.H"
 #include "Time.H"
@@ -28,7 +30,8 @@ const std::string kHeading =
     "bed_height,bed_area,fastest_particle,least_fraction,courant,continuity_error,volume_error,impulse_error,"
     "pressure_error,dem_seconds,fluid_seconds,exchange_seconds,link_seconds,"
     "inserted,left,inserted_mass,mass,global_continuity_error,"
-    "momentum_x,momentum_y,momentum_z,fastest_fluid,outside";
+    "momentum_x,momentum_y,momentum_z,fastest_fluid,outside,"
+    "particle_reynolds,particle_reynolds_max";
 /// Gravity across the axis below this part of the whole counts as none: the hole is vertical.
 constexpr double kVertical = 1e-6;
 
@@ -43,6 +46,31 @@ double relative(double error, double scale) {
 vector vectorOf(const double* v) {
   return vector(v[0], v[1], v[2]);
 }
+
+/// Reynolds numbers of all particles at the mean slip since the last coupling step, which is what drag gave over its
+/// coefficient. Both are 0 without drag or without a Herschel-Bulkley law. Collective.
+struct SlipReynolds {
+  double mean = 0, largest = 0;
+  SlipReynolds(const averagedFlow& flow, const link::ParticleArrays& particles, double elapsed) {
+    const rheology::HerschelBulkley law = kinematicLaw(flow.rheology());
+    std::array<double, 2> sums{};
+    if (law.k > 0 && elapsed > 0 && particles.impulse && particles.drag_coefficient) {
+      for (std::size_t i = 0; i < particles.count; ++i) {
+        if (!(particles.drag_coefficient[i] > 0))
+          continue;
+        const double slip = mag(vectorOf(particles.impulse[i])) / particles.drag_coefficient[i];
+        const double diameter = std::cbrt(6 / constant::mathematical::pi * particles.volume[i]);
+        const double number = rheology::particle_reynolds(law, slip, diameter);
+        sums[0] += number;
+        sums[1] += 1;
+        largest = std::max(largest, number);
+      }
+    }
+    exchange::sumOverRanks(sums);
+    mean = relative(sums[0], sums[1]);
+    largest = returnReduce(largest, maxOp<double>());
+  }
+};
 
 } // namespace
 
@@ -81,6 +109,14 @@ couplingReport::couplingReport(const fvMesh& mesh, const link::DemTerms& dem, in
   }
   if (Pstream::master())
     openTable(earlier);
+}
+
+void couplingReport::head(const averagedFlow& flow) {
+  const std::string text = regimeHead(flow);
+  if (Pstream::master()) {
+    std::printf("%s", text.c_str());
+    std::fflush(stdout);
+  }
 }
 
 void couplingReport::openTable(const dictionary* earlier) {
@@ -160,7 +196,8 @@ couplingReport::Bed couplingReport::bed(const volScalarField& alpha) const {
 }
 
 void couplingReport::add(averagedFlow& flow, const exchange::particleExchange& exchange,
-                         const link::CouplingStep& couplingStep, const PartSeconds& seconds, const vector& onItsWay) {
+                         const link::CouplingStep& couplingStep, const link::ParticleArrays& particles,
+                         const PartSeconds& seconds, const vector& onItsWay) {
   total_ += seconds;
   // Crossing between ranks is the link's work, wherever it is done.
   const exchange::particlePoints::Traffic& traffic = exchange.present().traffic();
@@ -174,11 +211,12 @@ void couplingReport::add(averagedFlow& flow, const exchange::particleExchange& e
   points_ += double(exchange.present().here().size());
   const bool last = couplingStep.steps_total > 0 && couplingStep.steps_done >= couplingStep.steps_total;
   if (couplingSteps_++ % every_ == 0 || last)
-    write(flow, exchange, couplingStep, onItsWay);
+    write(flow, exchange, couplingStep, particles, onItsWay);
 }
 
 void couplingReport::write(averagedFlow& flow, const exchange::particleExchange& exchange,
-                           const link::CouplingStep& couplingStep, const vector& onItsWay) {
+                           const link::CouplingStep& couplingStep, const link::ParticleArrays& particles,
+                           const vector& onItsWay) {
   const exchange::ExchangeBalance& balance = exchange.balance();
   const link::DemTotals& totals = couplingStep.totals;
   const Bed bed = this->bed(flow.alpha());
@@ -199,6 +237,7 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
   left_ = initially_ + totals.inserted - totals.particles;
   outside_ = std::int64_t(balance.outside);
   const flowMeasures measures(flow);
+  const SlipReynolds slip(flow, particles, couplingStep.elapsed);
   const double gradient = measures.gradient;
   const double concentration = totals.volume / gSum(mesh_.V());
   const double flux = (vectorOf(totals.volume_velocity) & axis_) / length_;
@@ -227,23 +266,24 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
     row << ',' << part;
   row << ',' << totals.inserted << ',' << left_ << ',' << totals.inserted_mass << ',' << totals.mass << ','
       << globalContinuity << ',' << momentum.x() << ',' << momentum.y() << ',' << momentum.z() << ',' << fastestFluid
-      << ',' << outside_ << measures.values();
+      << ',' << outside_ << ',' << slip.mean << ',' << slip.largest << measures.values();
   addRow(row.str());
 
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   const double done =
       couplingStep.steps_total > 0 ? double(couplingStep.steps_done) / double(couplingStep.steps_total) : 0.0;
   std::printf("t %.4g s  %3.0f %%  left %.0f s | %lld particles, U %.4g m/s, dp/dz %.4g Pa/m, flux %.3g m3/s, fastest "
-              "%.3g m/s, alpha >= %.3f | %s | errors: volume %.1e impulse %.1e pressure %.1e continuity %.1e\n",
+              "%.3g m/s, alpha >= %.3f | %s  particles' Re %.3g, at most %.3g | errors: volume %.1e impulse %.1e "
+              "pressure %.1e continuity %.1e\n",
               mesh_.time().value(), 100 * done, done > 0 ? elapsed * (1 - done) / done : 0.0,
               static_cast<long long>(totals.particles), meanVelocity, gradient, flux, totals.fastest, bed.minFraction,
-              measures.text().c_str(), volumeError, impulseError, pressureError, continuity);
+              measures.text().c_str(), slip.mean, slip.largest, volumeError, impulseError, pressureError, continuity);
   std::fflush(stdout);
 }
 
-void couplingReport::warn(averagedFlow& flow, scalar Reynolds) {
+void couplingReport::warn(averagedFlow& flow, const ReynoldsNumbers& Reynolds) {
   const std::string convergence = flow.convergence().news(mesh_.time().timeName());
-  const std::string turbulence = warnedOfTurbulence_ ? "" : turbulenceWarning(flow, Reynolds);
+  const std::string turbulence = warnedOfTurbulence_ ? "" : regimeWarning(flow, Reynolds);
   const std::string inlet = warnedOfInlet_ ? "" : inletWarning(flow);
   warnedOfTurbulence_ = warnedOfTurbulence_ || !turbulence.empty();
   warnedOfInlet_ = warnedOfInlet_ || !inlet.empty();

@@ -4,8 +4,6 @@
 #include "flow/flowMeasures.H"
 
 #include "flow/averagedFlow.H"
-#include "rheology/slot_flow.h"
-#include "rheology/yieldStressViscosity.H"
 
 #include "fvcGrad.H"
 #include "wallPolyPatch.H"
@@ -13,28 +11,6 @@
 #include <sstream>
 
 namespace Foam {
-
-eccentra::rheology::HerschelBulkley kinematicLaw(const viscosityModel& model) {
-  if (const auto* ours = dynamic_cast<const viscosityModels::yieldStressViscosity*>(&model)) {
-    return ours->kinematic();
-  }
-  const dictionary& properties = model.viscosityProperties();
-  const word type(properties.get<word>("transportModel"));
-  const dictionary& coeffs = properties.optionalSubDict(type + "Coeffs");
-  // Dimensions vary with the index: the number alone counts.
-  const auto number = [&](const char* keyword) { return dimensionedScalar(keyword, coeffs.lookup(keyword)).value(); };
-  const auto index = [&] { return dimensionedScalar("n", dimless, coeffs).value(); };
-  if (type == "Newtonian") {
-    return {0, dimensionedScalar("nu", dimViscosity, properties).value(), 1, GREAT};
-  }
-  if (type == "powerLaw") {
-    return {0, number("k"), index(), GREAT};
-  }
-  if (type == "HerschelBulkley") {
-    return {number("tau0"), number("k"), index(), GREAT};
-  }
-  return {0, 0, 0, 0};
-}
 
 vector flowAxis(const averagedFlow& flow) {
   return flow.drive().axis();
@@ -87,39 +63,6 @@ scalar pressureGradientOf(const averagedFlow& flow) {
   return flow.rho() * (mean(inlet) - mean(outlet)) / (boundBox(mesh.points(), true).span() & flowAxis(flow));
 }
 
-scalar ReynoldsNumber(const averagedFlow& flow) {
-  const fvMesh& mesh = flow.mesh();
-  scalar area = 0, viscous = 0;
-  for (const label patchi : wallPatches(mesh)) {
-    const scalarField& magSf = mesh.magSf().boundaryField()[patchi];
-    area += sum(magSf);
-    viscous += sum(magSf * flow.rheology().nu(patchi));
-  }
-  reduce(area, sumOp<scalar>());
-  reduce(viscous, sumOp<scalar>());
-  const scalar U = mag(flow.superficialVelocity());
-  if (!(area > 0)) {
-    return 0;
-  }
-  const scalar diameter = 4 * gSum(mesh.V()) / area;
-  const eccentra::rheology::HerschelBulkley law = kinematicLaw(flow.rheology());
-  return law.k > 0 ? eccentra::rheology::metzner_reed(law, diameter, U) : U * diameter * area / viscous;
-}
-
-std::string turbulenceWarning(const averagedFlow& flow, scalar Reynolds) {
-  const eccentra::rheology::HerschelBulkley law = kinematicLaw(flow.rheology());
-  const scalar limit = eccentra::rheology::laminar_limit(law.k > 0 ? law.n : 1);
-  if (!(Reynolds > limit)) {
-    return "";
-  }
-  std::ostringstream text;
-  text.precision(4);
-  text << "warning: the Reynolds number of the mean flow is " << Reynolds << ", above the laminar limit " << limit
-       << " of this fluid (Dodge and Metzner), but the flow is computed as laminar: there is no turbulence model, and "
-          "pressure drop and forces on walls come out too low\n";
-  return text.str();
-}
-
 std::string inletWarning(averagedFlow& flow) {
   // Below this fluid fraction the two velocities differ by more than a hundredth.
   constexpr scalar kClear = 0.99;
@@ -148,11 +91,11 @@ std::string inletWarning(averagedFlow& flow) {
 }
 
 flowMeasures::flowMeasures(averagedFlow& flow)
-    : gradient(pressureGradientOf(flow)), Reynolds(ReynoldsNumber(flow)), residual(flow.momentumResidual()),
-      loads(wallLoads(flow)) {}
+    : gradient(pressureGradientOf(flow)), Reynolds(ReynoldsOf(flow)), flowing(regimeOf(flow, Reynolds.wide)),
+      regimes(regimeText(flow, Reynolds)), residual(flow.momentumResidual()), loads(wallLoads(flow)) {}
 
 std::string flowMeasures::columns(const fvMesh& mesh) {
-  std::string names = ",reynolds,momentum_residual";
+  std::string names = ",reynolds,reynolds_wide,regime,momentum_residual";
   for (const label patchi : wallPatches(mesh)) {
     for (const char* what : {"_force_x", "_force_y", "_force_z", "_torque"}) {
       names += "," + mesh.boundary()[patchi].name() + what;
@@ -164,7 +107,7 @@ std::string flowMeasures::columns(const fvMesh& mesh) {
 std::string flowMeasures::values() const {
   std::ostringstream os;
   os.precision(13);
-  os << ',' << Reynolds << ',' << residual;
+  os << ',' << Reynolds.mean << ',' << Reynolds.wide << ',' << int(flowing) << ',' << residual;
   for (const wallLoad& load : loads) {
     os << ',' << load.force.x() << ',' << load.force.y() << ',' << load.force.z() << ',' << load.torque;
   }
@@ -174,7 +117,11 @@ std::string flowMeasures::values() const {
 std::string flowMeasures::text() const {
   std::ostringstream os;
   os.precision(4);
-  os << "Re " << Reynolds;
+  os << "Re " << Reynolds.mean;
+  if (Reynolds.wide != Reynolds.mean) {
+    os << " wide gap " << Reynolds.wide;
+  }
+  os << " (" << regimes << ')';
   for (const wallLoad& load : loads) {
     os << "  " << load.patch << " |F| " << mag(load.force) << " N torque " << load.torque << " N m";
   }

@@ -36,6 +36,10 @@ flowProgress::flowProgress(const Time& runTime, averagedFlow& flow, bool verbose
       interval_(runTime.controlDict().getOrDefault<scalar>("progressInterval", 2)), startTime_(runTime.value()),
       every_(readReport(runTime)) {
   openTable();
+  const std::string head = regimeHead(flow);
+  if (Pstream::master()) {
+    std::printf("%s", head.c_str());
+  }
 }
 
 flowProgress::~flowProgress() {
@@ -75,7 +79,7 @@ void flowProgress::row(const flowMeasures& measures) {
 
 void flowProgress::warn(const flowMeasures& measures) {
   const std::string convergence = flow_.convergence().news(runTime_.timeName());
-  const std::string turbulence = warnedOfTurbulence_ ? "" : turbulenceWarning(flow_, measures.Reynolds);
+  const std::string turbulence = warnedOfTurbulence_ ? "" : regimeWarning(flow_, measures.Reynolds);
   warnedOfTurbulence_ = warnedOfTurbulence_ || !turbulence.empty();
   if (Pstream::master()) {
     std::printf("%s%s", convergence.c_str(), turbulence.c_str());

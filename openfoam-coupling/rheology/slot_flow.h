@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reynolds number of Metzner and Reed for an annulus taken as a slot. Pure functions
-// without OpenFOAM headers.
+// Reynolds number of Metzner and Reed for an annulus taken as one slot, or as slots of its local gaps side by side.
+// Pure functions without OpenFOAM headers.
 #pragma once
 
 #include "rheology/herschel_bulkley.h"
@@ -48,6 +48,61 @@ inline double metzner_reed(const HerschelBulkley& kinematic, double hydraulic_di
 /// Below it the flow is laminar (Dodge and Metzner 1959): 2100 for a Newtonian fluid.
 inline double laminar_limit(double flow_index) {
   return 3470 - 1370 * flow_index;
+}
+
+/// Above it the flow is turbulent throughout (Dodge and Metzner 1959): 2900 for a Newtonian fluid.
+inline double turbulent_limit(double flow_index) {
+  return 4270 - 1370 * flow_index;
+}
+
+/// Two cylinders with parallel axes, the pipe inside the hole [m].
+struct AnnulusGap {
+  double pipe_radius;
+  double hole_radius;
+  double offset; ///< of the axes, 0 <= offset < hole_radius - pipe_radius
+
+  /// Width at this angle from the widest place [m].
+  double at(double angle) const { return hole_radius - pipe_radius + offset * std::cos(angle); }
+  double widest() const { return at(0); }
+};
+
+/// Mean velocity of slots of the local gaps side by side, none of which turns, under one gradient over the density
+/// [m/s2].
+inline double slots_velocity(const HerschelBulkley& kinematic, const AnnulusGap& annulus, double gradient) {
+  constexpr int kSlots = 90;
+  const double half_turn = std::acos(-1.0);
+  double flow = 0, width = 0;
+  for (int i = 0; i < kSlots; ++i) {
+    const double gap = annulus.at(half_turn * (i + 0.5) / kSlots);
+    const double excess = 0.5 * gradient * gap - kinematic.tau0;
+    flow += excess > 0 ? gap * slot_velocity(kinematic, gap, excess) : 0;
+    width += gap;
+  }
+  return flow / width;
+}
+
+/// The gradient over the density that drives this mean velocity > 0 through them [m/s2].
+inline double slots_gradient(const HerschelBulkley& kinematic, const AnnulusGap& annulus, double velocity) {
+  double low = 0, high = 2 * slot_wall_stress(kinematic, annulus.widest(), velocity) / annulus.widest();
+  while (slots_velocity(kinematic, annulus, high) < velocity) {
+    low = high;
+    high *= 2;
+  }
+  constexpr int kBisections = 60;
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = 0.5 * (low + high);
+    (slots_velocity(kinematic, annulus, middle) < velocity ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+/// Mean velocity in the widest of the slots while that of all of them is `velocity`: an estimate without a bed.
+inline double wide_gap_velocity(const HerschelBulkley& kinematic, const AnnulusGap& annulus, double velocity) {
+  if (!(velocity > 0)) {
+    return 0;
+  }
+  const double wall = 0.5 * slots_gradient(kinematic, annulus, velocity) * annulus.widest();
+  return slot_velocity(kinematic, annulus.widest(), wall - kinematic.tau0);
 }
 
 } // namespace eccentra::rheology
