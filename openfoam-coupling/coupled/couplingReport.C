@@ -315,8 +315,9 @@ void couplingReport::finish(averagedFlow& flow) const {
   }
   printLoad();
   printLink(link, dem, fluid);
+  const std::string turbulence = turbulenceSummary(flow);
   if (Pstream::master())
-    std::printf("%s", flow.convergence().summary().c_str());
+    std::printf("%s%s", turbulence.c_str(), flow.convergence().summary().c_str());
   if (Pstream::master() && (left_ > 0 || outside_ > 0))
     std::printf("particles that have left the simulation box: %lld; that lie outside the mesh: %lld\n",
                 static_cast<long long>(left_), static_cast<long long>(outside_));

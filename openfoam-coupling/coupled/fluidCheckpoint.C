@@ -4,6 +4,7 @@
 #include "coupled/fluidCheckpoint.H"
 
 #include "coupled/fieldsOfParts.H"
+#include "flow/flowTurbulence.H"
 #include "support/halfWritten.H"
 
 #include "link/checkpoint/checkpoint_choice.h"
@@ -139,6 +140,12 @@ template <class Visit> void forFields(averagedFlow& flow, bool pending, Visit&& 
   visit(mesh.lookupObjectRef<volVectorField>("withheldForce"), "withheldForceNow");
   if (mesh.foundObject<volScalarField>("driveResponse"))
     visit(mesh.lookupObjectRef<volScalarField>("driveResponse"), "driveResponseNow");
+  for (volScalarField* const field : flowTurbulence::transported(mesh)) {
+    visit(*field, field->name() + "Now");
+    visit(field->oldTime(), field->name() + "Old");
+  }
+  if (volScalarField* const nut = flowTurbulence::eddyViscosity(mesh))
+    visit(*nut, "nutNow");
   if (pending) {
     visit(flow.particleForce(), "particleForceNow");
     visit(flow.exchange(), "exchangeNow");

@@ -8,6 +8,7 @@
 #include "flow/deferredConvection.H"
 #include "flow/extrapolatedVelocity.H"
 #include "flow/facewardForce.H"
+#include "flow/flowTurbulence.H"
 
 #include "adjustPhi.H"
 #include "constrainHbyA.H"
@@ -29,6 +30,7 @@
 #include "rheology/yieldStressViscosity.H"
 #include "support/inputError.H"
 #include "support/rankSums.H"
+#include "turbulenceModel.H"
 #include "wallFvPatch.H"
 #include "zeroGradientFvPatchFields.H"
 
@@ -113,6 +115,8 @@ averagedFlow::averagedFlow(fvMesh& mesh, particles presence, stressShare share)
     : mesh_(mesh), pimple_(mesh), share_(share), U_(input("U", mesh), mesh), p_(input("p", mesh), mesh),
       phi_(state("phi", mesh), fvc::flux(U_)),
       coupled_(presence == particles::coupled ? new coupledFields(mesh, phi_) : nullptr), transport_(U_, phi_),
+      turbulence_(flowTurbulence::New(U_, phi_, transport_, coupled_.valid() ? &coupled_->alpha : nullptr,
+                                      coupled_.valid() ? &coupled_->alphaPhi : nullptr)),
       rho_(readDensity(transport_)), drive_(mesh, rho_) {
   const word where = transport_.getOrDefault<word>("faceViscosity", "strainRate");
   if (where != "strainRate" && where != "interpolated") {
@@ -121,7 +125,8 @@ averagedFlow::averagedFlow(fvMesh& mesh, particles presence, stressShare share)
   if (where == "strainRate") {
     faceLaw_ = dynamic_cast<const viscosityModels::yieldStressViscosity*>(&rheology());
   }
-  extrapolates_ = faceLaw_ && word(mesh_.ddtScheme("ddt(U)")) == secondOrderTime;
+  // The eddy viscosity of the end of a step does not follow from a velocity.
+  extrapolates_ = faceLaw_ && !turbulence_.valid() && word(mesh_.ddtScheme("ddt(U)")) == secondOrderTime;
   keepOldTimes(U_);
   if (extrapolates_) {
     keepOldTimes(U_.oldTime());
@@ -136,6 +141,20 @@ averagedFlow::averagedFlow(fvMesh& mesh, particles presence, stressShare share)
     pRefCell_ = Pstream::master() ? pimple_.dict().getOrDefault<label>("pRefCell", 0) : -1;
     pRefValue_ = pimple_.dict().getOrDefault<scalar>("pRefValue", 0);
   }
+}
+
+averagedFlow::~averagedFlow() = default;
+
+const turbulenceModel* averagedFlow::turbulence() const {
+  return turbulence_.valid() ? &turbulence_->model() : nullptr;
+}
+
+tmp<scalarField> averagedFlow::nuEff(label patchi) const {
+  tmp<scalarField> nu(new scalarField(rheology().nu(patchi)));
+  if (turbulence_.valid()) {
+    nu.ref() += turbulence_->model().nut(patchi);
+  }
+  return nu;
 }
 
 void averagedFlow::offerLookups() {
@@ -231,6 +250,9 @@ void averagedFlow::advance() {
     if (pimple_.turbCorr()) {
       const stopwatch watch(cost_.rheology);
       transport_.correct();
+      if (turbulence_.valid()) {
+        turbulence_->model().correct();
+      }
     }
   }
   convergence_.endStep(outerCorrectors, pimple_.dict(), fastest);
@@ -287,12 +309,27 @@ tmp<fvVectorMatrix> averagedFlow::convection(const surfaceScalarField& flux, con
   return matrix;
 }
 
+void averagedFlow::addReynoldsStress(fvVectorMatrix& matrix, const surfaceScalarField& nut,
+                                     const volTensorField& gradU) const {
+  const tmp<surfaceScalarField> share(coupled_.valid() ? coupled_->alphaf * nut : tmp<surfaceScalarField>(nut));
+  matrix -= fvm::laplacian(share(), U_, diffusionScheme);
+  matrix -= fvc::div(share() * fvc::dotInterpolate(mesh_.Sf(), dev2(T(gradU))));
+}
+
 tmp<fvVectorMatrix> averagedFlow::momentumMatrix(bool ahead) {
   const stopwatch watch(cost_.momentum);
   const tmp<volVectorField> U = ahead ? extrapolatedVelocity(U_) : tmp<volVectorField>(U_);
   const tmp<volTensorField> gradU = fvc::grad(U(), "grad(U)");
-  const tmp<surfaceScalarField> nu = faceViscosity(U(), gradU());
+  tmp<surfaceScalarField> nu = faceViscosity(U(), gradU());
   tmp<fvVectorMatrix> stress(-fvm::laplacian(nu(), U_, diffusionScheme) - transposedStress(nu(), gradU()));
+  if (coupled_.valid() && share_ == stressShare::fraction) {
+    stress.ref() *= coupled_->alpha;
+  }
+  if (turbulence_.valid()) {
+    const surfaceScalarField nut(fvc::interpolate(turbulence_->model().nut(), "interpolate(nuEff)"));
+    addReynoldsStress(stress.ref(), nut, gradU());
+    nu = nu + nut;
+  }
   tmp<fvVectorMatrix> tUEqn;
   if (!coupled_.valid()) {
     tUEqn = fvm::ddt(U_) + convection(phi_, nu()) + stress;
@@ -303,9 +340,6 @@ tmp<fvVectorMatrix> averagedFlow::momentumMatrix(bool ahead) {
     coupledFields& c = coupled_();
     c.alphaPhi = c.alphaf * phi_;
     c.imbalance = (fvc::ddt(c.alpha) + fvc::div(c.alphaPhi))()();
-    if (share_ == stressShare::fraction) {
-      stress.ref() *= c.alpha;
-    }
     tUEqn = fvm::ddt(c.alpha, U_) + convection(c.alphaPhi, nu()) - fvm::Sp(c.imbalance, U_) + fvm::Sp(c.exchange, U_) +
             stress;
     const scalarField& V = mesh_.V().field();
@@ -487,8 +521,8 @@ scalar averagedFlow::momentumResidual() {
   scalar walls = 0;
   forAll(mesh_.boundary(), patchi) {
     if (isA<wallFvPatch>(mesh_.boundary()[patchi])) {
-      walls += sum(
-          mag(rheology().nu(patchi) * (mesh_.boundary()[patchi].Sf() & dev(twoSymm(gradU().boundaryField()[patchi])))));
+      walls +=
+          sum(mag(nuEff(patchi) * (mesh_.boundary()[patchi].Sf() & dev(twoSymm(gradU().boundaryField()[patchi])))));
     }
   }
   std::array<double, 4> sums{sum(mag(missing)), sum(mag(pressure)), sum(mag(inertia)), walls};

@@ -43,7 +43,12 @@ bool noTurbulence(const dictionary& dict) {
     const dictionary& laminar = dict.subOrEmptyDict("laminar");
     return !laminar.found("laminarModel") || says(laminar, "laminarModel", {"Stokes", "laminar"});
   }
-  return says(dict.subOrEmptyDict("RAS"), "RASModel", {"laminar"}) && says(dict, "simulationType", {"RAS"});
+  return says(dict, "simulationType", {"RAS"}) && (says(dict.subOrEmptyDict("RAS"), "RASModel", {"laminar"}) ||
+                                                   says(dict.subOrEmptyDict("RAS"), "model", {"laminar"}));
+}
+
+bool knownTurbulence(const dictionary& dict) {
+  return says(dict, "simulationType", {"RAS"}) || noTurbulence(dict);
 }
 
 bool staticMesh(const dictionary& dict) {
@@ -100,9 +105,11 @@ const std::vector<caseFile>& caseFiles() {
       {"SRFProperties", v::refused, nullptr,
        "there are no rotating frames here; turn the pipe by the boundary condition rotatingWallVelocity in 0/U, and "
        "remove the file"},
-      {"turbulenceProperties", v::refused, noTurbulence,
-       "there is no turbulence model here; give simulationType laminar, or use pimpleFoam with "
-       "libs (\"libeccentraRheology.so\")"},
+      {"turbulenceProperties", v::refused, knownTurbulence,
+       "give simulationType laminar or RAS; for LES, which needs a finer mesh than an annulus with particles has, use "
+       "pimpleFoam with libs (\"libeccentraRheology.so\")"},
+      {"turbulenceProperties.*", v::refused, noTurbulence,
+       "there is one fluid here; give constant/turbulenceProperties"},
       {"dynamicMeshDict", v::refused, staticMesh,
        "the mesh does not move; give dynamicFvMesh staticFvMesh or remove the file, and turn the pipe by "
        "rotatingWallVelocity in 0/U"},
@@ -131,7 +138,7 @@ const std::vector<caseFile>& caseFiles() {
       // Without effect on this flow.
       {"RASProperties", v::noted, nullptr, "v1912 reads constant/turbulenceProperties in its place"},
       {"LESProperties", v::noted, nullptr, "v1912 reads constant/turbulenceProperties in its place"},
-      {"momentumTransport", v::noted, nullptr, "there is no turbulence model here"},
+      {"momentumTransport", v::noted, nullptr, "constant/turbulenceProperties is read in its place"},
       {"adjointRASProperties", v::noted, nullptr, ""},
       {"optimisationDict", v::noted, nullptr, ""},
       {"fvOptionsAdjoint", v::noted, nullptr, ""},
@@ -204,7 +211,7 @@ const std::vector<caseType>& boundaryTypes() {
 const std::vector<caseType>& functionObjectTypes() {
   using v = verdict;
   static const char* const heat = "there is no temperature here";
-  static const char* const turbulence = "there is no turbulence here";
+  static const char* const turbulence = "there is no turbulence of that kind here";
   static const char* const cloud = "there is no cloud of OpenFOAM's here: LIGGGHTS has the particles";
   static const std::vector<caseType> table{{"wallHeatFlux", v::noted, heat},
                                            {"heatTransferCoeff", v::noted, heat},
@@ -328,21 +335,19 @@ void checkFolder(const Time& time, const fileName& folder, bool all, std::string
   }
 }
 
+/// Fields of the turbulence models that can be chosen.
+bool turbulenceField(const std::string& name) {
+  static const std::set<std::string> fields{"k",  "epsilon", "omega", "nut",      "nuTilda",
+                                            "v2", "f",       "phit",  "gammaInt", "ReThetat"};
+  return fields.count(name);
+}
+
 /// Fields that solvers of OpenFOAM read beside U and p.
 bool solverField(const std::string& name) {
-  static const std::set<std::string> fields{"k",
-                                            "epsilon",
-                                            "omega",
-                                            "nut",
-                                            "nuTilda",
-                                            "nuSgs",
+  static const std::set<std::string> fields{"nuSgs",
                                             "muSgs",
                                             "mut",
                                             "alphat",
-                                            "v2",
-                                            "f",
-                                            "gammaInt",
-                                            "ReThetat",
                                             "kl",
                                             "kt",
                                             "zeta",
@@ -374,7 +379,7 @@ bool solverField(const std::string& name) {
 
 void checkFields(const Time& time, std::string& unread) {
   for (const std::string& name : namesIn(time.path() / time.timeName())) {
-    if (solverField(name)) {
+    if (turbulenceField(name) ? !turbulent(time) : solverField(name)) {
       join(unread, time.timeName() + "/" + name);
     }
   }
@@ -391,7 +396,7 @@ void checkFunctionObjects(const Time& time, std::string& unread) {
     }
     const word type(e.dict().getOrDefault<word>("type", word::null));
     for (const caseType& known : functionObjectTypes()) {
-      if (type == known.name) {
+      if (type == known.name && !(type == "turbulenceFields" && turbulent(time))) {
         join(unread, "functions/" + e.keyword() + " of system/controlDict (" + type + ": " + known.remedy + ")");
       }
     }
@@ -412,7 +417,17 @@ void checkCaseFiles(const Time& time) {
   }
 }
 
-void checkSolutionControls(const dictionary& fvSolution) {
+bool turbulent(const Time& time) {
+  const fileName path(time.globalPath() / time.constant() / "turbulenceProperties");
+  if (!isFile(path)) {
+    return false;
+  }
+  IFstream is(path);
+  const dictionary content(is);
+  return knownTurbulence(content) && !noTurbulence(content);
+}
+
+void checkSolutionControls(const dictionary& fvSolution, bool turbulent) {
   std::string unread;
   const bool own = fvSolution.found("PIMPLE");
   for (const char* other : {"PISO", "SIMPLE"}) {
@@ -455,8 +470,12 @@ void checkSolutionControls(const dictionary& fvSolution) {
       join(unread, "PIMPLE/residualControl (nOuterCorrectors is 1)");
     }
   }
-  const auto solved = [](const std::string& name) {
-    return name == "U" || name == "UFinal" || name == "p" || name == "pFinal";
+  const auto ofTurbulence = [&](const std::string& name) { return turbulent && turbulenceField(name); };
+  const auto solved = [&](const std::string& name) {
+    const std::string end = "Final";
+    const bool final = name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
+    const std::string field = final ? name.substr(0, name.size() - end.size()) : name;
+    return field == "U" || field == "p" || ofTurbulence(field);
   };
   for (const entry& e : fvSolution.subOrEmptyDict("solvers")) {
     if (!e.keyword().isPattern() && !solved(e.keyword())) {
@@ -467,8 +486,9 @@ void checkSolutionControls(const dictionary& fvSolution) {
   for (const char* kind : {"fields", "equations"}) {
     for (const entry& e : relaxation.subOrEmptyDict(kind)) {
       const std::string path = std::string("relaxationFactors/") + kind + "/" + e.keyword();
-      const bool ours = e.keyword() == (std::string(kind) == "fields" ? "p" : "U");
-      const bool final = e.keyword() == (std::string(kind) == "fields" ? "pFinal" : "UFinal");
+      const std::string field = std::string(kind) == "fields" ? "p" : "U";
+      const bool ours = e.keyword() == field || (field == "U" && ofTurbulence(e.keyword()));
+      const bool final = e.keyword() == field + "Final" || (field == "U" && turbulent && solved(e.keyword()) && !ours);
       if (e.keyword().isPattern() || final) {
         continue;
       }

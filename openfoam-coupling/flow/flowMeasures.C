@@ -6,8 +6,10 @@
 #include "flow/averagedFlow.H"
 
 #include "fvcGrad.H"
+#include "turbulenceModel.H"
 #include "wallPolyPatch.H"
 
+#include <algorithm>
 #include <sstream>
 
 namespace Foam {
@@ -35,7 +37,7 @@ std::vector<wallLoad> wallLoads(const averagedFlow& flow) {
     const vectorField& Sf = patch.Sf();
     const vectorField& Cf = patch.Cf();
     const scalarField& magSf = patch.magSf();
-    const scalarField nu(flow.rheology().nu(patchi));
+    const scalarField nu(flow.nuEff(patchi));
     const tensorField& gradient = gradU().boundaryField()[patchi];
     const scalarField& p = flow.p().boundaryField()[patchi];
     const scalar area = gSum(magSf);
@@ -61,6 +63,46 @@ scalar pressureGradientOf(const averagedFlow& flow) {
     return gSum(scalarField(areas * flow.p().boundaryField()[patch])) / gSum(areas);
   };
   return flow.rho() * (mean(inlet) - mean(outlet)) / (boundBox(mesh.points(), true).span() & flowAxis(flow));
+}
+
+wallDistances wallDistancesOf(const averagedFlow& flow) {
+  List<scalarField> all(Pstream::nProcs());
+  scalarField& own = all[Pstream::myProcNo()];
+  for (const label patchi : wallPatches(flow.mesh())) {
+    const fvPatchVectorField& U = flow.U().boundaryField()[patchi];
+    const scalarField stress(flow.nuEff(patchi) * mag(U.snGrad()));
+    const scalarField nu(flow.rheology().nu(patchi));
+    const scalarField& y = flow.turbulence()->y()[patchi];
+    forAll(y, facei) own.append(y[facei] * std::sqrt(stress[facei]) / nu[facei]);
+  }
+  Pstream::gatherList(all);
+  wallDistances distances;
+  if (Pstream::master()) {
+    std::vector<scalar> values;
+    for (const scalarField& part : all) {
+      values.insert(values.end(), part.begin(), part.end());
+    }
+    if (!values.empty()) {
+      const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+      std::nth_element(values.begin(), middle, values.end());
+      distances.median = *middle;
+      distances.largest = *std::max_element(values.begin(), values.end());
+    }
+  }
+  return distances;
+}
+
+std::string turbulenceSummary(const averagedFlow& flow) {
+  if (!flow.turbulence()) {
+    return "";
+  }
+  const wallDistances distances = wallDistancesOf(flow);
+  std::ostringstream text;
+  text.precision(3);
+  text << "turbulence by " << flow.turbulence()->type() << ": y+ of the first cells is " << distances.median
+       << " in the median, " << distances.largest
+       << " at most; wall functions of the logarithmic law hold from 30 to 300\n";
+  return text.str();
 }
 
 std::string inletWarning(averagedFlow& flow) {

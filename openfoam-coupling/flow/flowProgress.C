@@ -143,9 +143,10 @@ void flowProgress::summary() {
   }
   const averagedFlow::costs& cost = flow_.cost();
   const scalar continuity = flow_.continuityError();
+  const std::string turbulence = turbulenceSummary(flow_);
   if (Pstream::master()) {
-    std::printf("%d steps in %.3g s: rheology %.3g, momentum %.3g, pressure %.3g s; mass balance %.2g\n%s", int(steps_),
-                elapsed(), cost.rheology, cost.momentum, cost.pressure, continuity,
+    std::printf("%d steps in %.3g s: rheology %.3g, momentum %.3g, pressure %.3g s; mass balance %.2g\n%s%s",
+                int(steps_), elapsed(), cost.rheology, cost.momentum, cost.pressure, continuity, turbulence.c_str(),
                 flow_.convergence().summary().c_str());
     std::fflush(stdout);
   }

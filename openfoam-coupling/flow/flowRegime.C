@@ -8,6 +8,7 @@
 #include "rheology/yieldStressViscosity.H"
 #include "support/rankSums.H"
 
+#include "turbulenceModel.H"
 #include "wallPolyPatch.H"
 
 #include <array>
@@ -225,6 +226,19 @@ std::string regimeHead(const averagedFlow& flow) {
 }
 
 std::string regimeWarning(const averagedFlow& flow, const ReynoldsNumbers& numbers) {
+  if (flow.turbulence()) {
+    const scalar least = rheology::turbulent_limit(indexOf(flow)), largest = max(numbers.mean, numbers.wide);
+    if (largest > least || !(largest > 0)) {
+      return "";
+    }
+    std::ostringstream text;
+    text.precision(4);
+    text << "warning: the largest Reynolds number of the flow is " << largest << ", below " << least
+         << ", above which this fluid is turbulent (Dodge and Metzner): " << flow.turbulence()->type()
+         << " knows no transition, and friction comes out too high; give simulationType laminar in "
+            "constant/turbulenceProperties\n";
+    return text.str();
+  }
   const scalar limit = rheology::laminar_limit(indexOf(flow));
   const bool mean = numbers.mean > limit;
   if (!mean && !(numbers.wide > limit)) {
@@ -235,7 +249,8 @@ std::string regimeWarning(const averagedFlow& flow, const ReynoldsNumbers& numbe
   text << "warning: the Reynolds number of the " << (mean ? "mean flow is " : "flow in the wide gap is ")
        << (mean ? numbers.mean : numbers.wide) << ", above the laminar limit " << limit
        << " of this fluid (Dodge and Metzner), but the flow is computed as laminar: there is no turbulence model, and "
-          "pressure drop and forces on walls come out too low\n";
+          "pressure drop and forces on walls come out too low; give simulationType RAS in "
+          "constant/turbulenceProperties\n";
   return text.str();
 }
 

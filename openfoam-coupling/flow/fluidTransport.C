@@ -20,7 +20,7 @@ fluidTransport::fluidTransport(const volVectorField& U, const surfaceScalarField
 fluidTransport::~fluidTransport() = default;
 
 void fluidTransport::offerStress() {
-  if (stress_.valid()) {
+  if (stress_.valid() || U_.db().foundObject<turbulenceModel>(turbulenceModel::propertiesName)) {
     return;
   }
   using laminarFlow = laminarModels::Stokes<incompressible::turbulenceModel>;

@@ -34,7 +34,7 @@ void run(const argList& args) {
   Time runTime(Time::controlDictName, args);
   checkCaseFiles(runTime);
   fvMesh mesh(IOobject(fvMesh::defaultRegion, runTime.timeName(), runTime, IOobject::MUST_READ));
-  checkSolutionControls(mesh.solutionDict());
+  checkSolutionControls(mesh.solutionDict(), turbulent(runTime));
   if (eccentra::coupledRun::wanted(runTime)) {
     eccentra::coupledRun(mesh, args.found("verbose"), args.found("resume")).run();
     return;

@@ -68,3 +68,5 @@ foreach(_library incompressibleTurbulenceModels turbulenceModels)
   find_library(FOAM_${_library}_LIBRARY ${_library} ${_hints} REQUIRED)
   target_link_libraries(openfoam_turbulence INTERFACE "${FOAM_${_library}_LIBRARY}")
 endforeach()
+# With equations for a fluid that shares its space; flow/turbulence alone links it.
+find_library(FOAM_DPMTurbulenceModels_LIBRARY DPMTurbulenceModels ${_hints} REQUIRED)

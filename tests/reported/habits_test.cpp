@@ -52,7 +52,10 @@ TEST(Reported, openfoam_habits_RAS) {
   scene.write("ras");
   scene.file("constant/turbulenceProperties", "dictionary",
              "simulationType RAS; RAS { RASModel kEpsilon; turbulence on; printCoeffs on; }");
-  expect_refused(scene.run(), {"constant/turbulenceProperties", "laminar"});
+  expect_refused(scene.run(), {"0/k", "kEpsilon", "constant/turbulenceProperties"});
+  scene.file("constant/turbulenceProperties", "dictionary",
+             "simulationType LES; LES { LESModel Smagorinsky; turbulence on; delta cubeRootVol; }");
+  expect_refused(scene.run(), {"constant/turbulenceProperties", "laminar or RAS"});
   scene.file("constant/turbulenceProperties", "dictionary", "simulationType laminar;");
   const ProgramResult laminar = scene.run();
   EXPECT_EQ(laminar.status, 0) << laminar.output;
