@@ -135,6 +135,7 @@ class Reported(unittest.TestCase):
         copy = self.folder / "copy"
         for part in ("scripts", "cases", "tests/exchange", "tests/stability"):
             shutil.copytree(ROOT / part, copy / part, symlinks=True)
+        shutil.copy(ROOT / "CMakeLists.txt", copy)  # what tells a source tree from an installation
         build = self.fake_build("one")
         for script, file, words in (
                 ("cluster-speed", "scripts/study/scenes/speed.in", ["--scenes", "settled", "--repeat", "1"]),

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Clusters beside rounded bodies: what their bulk does over the radius of their corners."""
 import math
+import pathlib
+import tempfile
 
 from .. import charts, dry, levels, measures, options, runs, tables
 
@@ -21,12 +23,13 @@ def cluster_shape(body, spheres, fine):
     return f"file {fine}" if body == "disk" and spheres == 80 else f"{body} {spheres}"
 
 
-def smooth_twin(build, body, shape, folder):
+def smooth_twin(build, body, shape):
     """Words of the smooth body with the outer form and the corners of a cluster, and its rounding: radius over half the smallest extent of
     a cube; of a disk, thickness over diameter, since its rim is round."""
-    clump = folder / "twin.clump"
-    levels.measured(build, shape, "--diameter", "6.35e-3", "-o", str(clump))
-    half, radius = extents(clump)
+    with tempfile.TemporaryDirectory() as folder:  # another call may write its own now
+        clump = pathlib.Path(folder) / "twin.clump"
+        levels.measured(build, shape, "--diameter", "6.35e-3", "-o", str(clump))
+        half, radius = extents(clump)
     if body == "cube":
         rounding = radius / min(half)
         return f"smooth cube rounding {rounding:.3f}", rounding
@@ -41,7 +44,7 @@ def pairs(build, body, folder):
     found = []
     for spheres in CLUSTERS[body]:
         shape = cluster_shape(body, spheres, fine)
-        words, rounding = smooth_twin(build, body, shape, folder)
+        words, rounding = smooth_twin(build, body, shape)
         found.append((rounding, levels.Level(f"{body[0].upper()}{spheres}", "cluster", shape, spheres=spheres)))
         found.append((rounding, levels.Level(f"{body} {rounding:.3f}", "cluster", words, spheres=30)))
     for rounding in ROUNDINGS[body]:
