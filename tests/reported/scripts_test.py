@@ -21,7 +21,11 @@ from study import options  # noqa: E402
 STUDIES = {
     "accuracy-cost": (["--bodies", "cube", "--levels", "S1", "--scenes", "heap", "--seeds", "1", "--parts", "levels"], {
         "--bodies": ["disk"], "--levels": ["C8"], "--scenes": ["drum"], "--seeds": ["2"], "--parts": ["levels", "methods"], "--quick": [],
-        "--full": [], "--retime": [], "--inclinations": ["0"], "--velocities": ["0.58"]}, ()),
+        "--full": [], "--retime": [], "--inclinations": ["0"], "--velocities": ["0.58"], "--rounding": ["0.3"], "--shape": ["disk"],
+        "--scene": ["OTHER_SCENE"], "--measure": ["KinEng"], "--share": ["0"]}, ("--within",)),
+    "calibrate-rolling": (["--shape", "cube", "--scene", "drum", "--others", "heap", "--seeds", "2"], {
+        "--shape": ["disk"], "--rounding": ["0.3"], "--scene": ["heap"], "--seeds": ["3"], "--range": ["0.1", "0.5"], "--vary": ["mu_s"],
+        "--mu-shape": ["0.1"]}, ("--others", "--mine", "--measure", "--share")),  # of runs that a plan cannot name before the fit
     "paper": (["--figures", "10", "--velocities", "1.165"], {
         "--figures": ["7"], "--velocities": ["0.58"], "--rungs": ["0.3"], "--quick": [], "--full": []}, ("--measured",)),
     "full-scene": (["--levels", "S1", "--fillings", "0.5"], {
@@ -54,6 +58,9 @@ BENCHMARKS = ("closures_benchmark", "openfoam_coupled_cost", "exchange_benchmark
 ANNULUS = ["--bodies", "cube", "--levels", "S1", "--scenes", "section", "--seeds", "1", "--parts", "levels"]
 # Where an option has something to choose from only in another call than the short one.
 STARTS = {("accuracy-cost", option): ANNULUS for option in ("--inclinations", "--velocities", "--quick")}
+OF_A_SHAPE = ["--shape", "cube", "--levels", "sphere", "--scene", "OWN_SCENE", "--measure", "v_height", "--seeds", "1"]
+STARTS |= {("accuracy-cost", option): OF_A_SHAPE for option in ("--shape", "--scene", "--measure", "--share")}
+STARTS["calibrate-rolling", "--mu-shape"] = [*STUDIES["calibrate-rolling"][0], "--vary", "mu_s"]
 STARTS["full-scene", "--quick"] = ["--levels", "S1"]
 STARTS["rounding", "--quick"] = []
 STARTS["paper", "--quick"] = ["--figures", "7"]
@@ -84,6 +91,10 @@ class Reported(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.files = {"OTHER": str(self.folder / "other")}
+        scene = (ROOT / "cases" / "own-scene" / "in.collapse").read_text()
+        for name, text in (("OWN_SCENE", scene), ("OTHER_SCENE", scene + "# another line\n")):
+            self.files[name] = str(self.folder / name)
+            (self.folder / name).write_text(text)
         for name, drag in (("POINTS", 30.0), ("OTHER_POINTS", 31.0)):
             self.files[name] = str(self.folder / name)
             (self.folder / name).write_text(f"sphericity,Re,Cd,source,flag,shape,crosswise\n1,1,{drag},nobody,0,sphere in air,\n")
