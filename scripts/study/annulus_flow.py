@@ -65,9 +65,12 @@ def pressure_gradient(mud, annulus, speed, parts=90):
     return bisect(lambda g: mean(g) - speed, 1e-9, 1e9)
 
 
-def reynolds(mud, width, speed, gradient):
-    """Generalised Reynolds number of a slot: 12 rho U2 / wall stress, which makes f = 24/Re where it is laminar."""
-    return 12 * mud.density * speed**2 / (0.5 * gradient * width)
+def metzner_reed(mud, hydraulic_diameter, speed):
+    """Generalised Reynolds number (Metzner and Reed) as runs state it (openfoam-coupling/rheology/slot_flow.h): 12 rho U2 / wall stress of a slot of
+    half the hydraulic diameter with this mean speed, rho U D_h / mu of a Newtonian fluid. The eccentricity does not enter that of the mean flow."""
+    width = 0.5 * hydraulic_diameter
+    wall = bisect(lambda stress: slot_speed(mud, width, 2 * stress / width) - speed, 1e-9, 1e9)
+    return 12 * mud.density * speed**2 / wall
 
 
 def laminar_limit(n):

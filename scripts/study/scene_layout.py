@@ -8,7 +8,7 @@ import tempfile
 import typing
 
 from . import programs
-from .annulus_flow import Annulus, Mud, laminar_limit, pressure_gradient, reynolds, slot_speed
+from .annulus_flow import Annulus, Mud, laminar_limit, metzner_reed, pressure_gradient, slot_speed
 from .programs import BUILD, Failure
 
 PI, GRAVITY = math.pi, 9.81
@@ -188,7 +188,7 @@ def lay_out(wish):
         per_second = wish.rate / (wish.solid_density * grain)
         count = round(per_second * wish.seconds)
         why_count = f"{per_second:.4g} per second ({wish.rate:.4g} kg/s) in {wish.seconds:g} s"
-    layout = Layout(wish, annulus, gradient, wide, reynolds(mud, wish.hole - wish.pipe, wish.velocity, gradient), reynolds(mud, annulus.widest, wide, gradient),
+    layout = Layout(wish, annulus, gradient, wide, metzner_reed(mud, annulus.hydraulic_diameter, wish.velocity), metzner_reed(mud, 2 * annulus.widest, wide),
                     laminar_limit(wish.n), wish.tau0 / (YIELD_NUMBER * GRAVITY * abs(wish.solid_density - wish.mud_density) or math.inf), cells, why_cells,
                     fluid_step, why_fluid_step, critical, interval_of(wish, fluid_step, critical), count, why_count, [])
     layout.warnings.extend(warnings_of(layout))

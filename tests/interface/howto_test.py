@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the commands of a how-to page (its blocks `sh`) in a clean folder: howto_test.py PAGE BIN CASES."""
+"""Runs the commands of a how-to page (its blocks `sh`) in a clean folder, and looks for the files that the page promises: howto_test.py PAGE BIN CASES."""
 import os
 import pathlib
 import re
@@ -12,7 +12,8 @@ import tempfile
 
 
 def main(page, programs, cases):
-    blocks = re.findall(r"^```sh\n(.*?)^```$", pathlib.Path(page).read_text(), re.DOTALL | re.MULTILINE)
+    text = pathlib.Path(page).read_text()
+    blocks = re.findall(r"^```sh\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
     if not blocks:
         sys.exit(f"howto_test: {page}: no block of commands")
     environment = dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}", ECCENTRA_BIN=str(programs))
@@ -24,7 +25,11 @@ def main(page, programs, cases):
             if done.returncode:
                 said = (done.stdout + done.stderr)[-3000:]
                 sys.exit(f"howto_test: {page}: block {number} of {len(blocks)} ends with {done.returncode}:\n{block}\n{said}")
-    print(f"howto_test: {page}: {len(blocks)} blocks")
+        promised = [name for name in set(re.findall(r"`([\w.-]+/[\w./-]+\.(?:png|svg|pvd|csv|html|md|vtp))`", text)) if not name.startswith("docs/")]
+        missing = [name for name in promised if not (pathlib.Path(folder) / name).is_file()]
+        if missing:
+            sys.exit(f"howto_test: {page}: its commands do not make {', '.join(sorted(missing))}")
+    print(f"howto_test: {page}: {len(blocks)} blocks, {len(promised)} files")
 
 
 if __name__ == "__main__":

@@ -34,6 +34,9 @@ DEFAULTS = {"section": ("6.35mm", "0.9", "3"), "well": ("6.35mm", "0.9", "3"), "
             "drum": ("6.35mm", "0.6", None)}
 
 
+FIRST_LOOK = 180  # seconds of computing that a user waits for a first picture
+
+
 class Parser(argparse.ArgumentParser):
     """Says what is wrong in one sentence."""
 
@@ -190,10 +193,18 @@ def table(layout):
               ("critical DEM step", f"{found.critical_step:.3g} s", "in a bed of such grains that meet at 1 m/s or twice the velocity of the wide side"),
               ("DEM steps in a fluid step", f"{found.interval}",
                f"the DEM step is {found.fluid_step / found.interval / found.critical_step:.2f} of the critical one"),
-              ("cuttings", f"{found.count}", found.why_count),
-              ("expected run time", scene_grains.said_time(scene_grains.run_time(
-                  grain, found.count * (0.5 if wish.kind == "well" else 1), steps * found.interval, found.number_of_cells, steps)),
-               f"one core, {steps:.3g} fluid steps; within a factor of three")]
+              ("cuttings", f"{found.count}", found.why_count)]
+
+    def expected(part):
+        """Seconds of a part of the run: of a well that fills, cuttings and their time grow with it."""
+        count = found.count * (0.5 * part if wish.kind == "well" else 1)
+        return scene_grains.run_time(grain, count, part * steps * found.interval, found.number_of_cells, part * steps)
+
+    lines.append(("expected run time", scene_grains.said_time(expected(1)), f"one core, {steps:.3g} fluid steps; within a factor of three"))
+    if expected(1) > 1.5 * FIRST_LOOK:
+        parts = [2.0**-k for k in range(1, 20)]
+        part = next((part for part in parts if expected(part) <= FIRST_LOOK), parts[-1])
+        lines.append(("a first look", f"{scene_grains.said_time(expected(part))} with --seconds {part * wish.seconds:.2g}", "an option of run, too"))
     return lines_of(lines)
 
 
@@ -286,5 +297,6 @@ def new(folder):
         sys.stdout.write(f"warning: {warning}\n")
     if not words.plan:
         (scene_files.write if words.kind in ("section", "well") else scene_files.write_plan)(layout, words.name, files)
-        sys.stdout.write(f"the case is in {words.name}; its numbers are in {words.name / 'scene'}. Run it: {words.name / 'run'}\n")
+        sys.stdout.write(f"the case is in {words.name}; its numbers are in {words.name / 'scene'}. Run it: {words.name / 'run'} --output FOLDER; "
+                         "draw it: eccentra report FOLDER\n")
     return 0
