@@ -103,14 +103,3 @@ def crossing(ladder, wanted):
             spread = math.hypot((1 - share) * (0 if math.isnan(e0) else e0), share * (0 if math.isnan(e1) else e1))
             return x0 + share * (x1 - x0), spread * (x1 - x0) / (y1 - y0)
     return "above", math.nan
-
-
-def rank_correlation(a, b):
-    """Spearman's, with mean ranks for equal values; nan where one side does not vary."""
-    def ranks(values):
-        order = sorted(values)
-        return [order.index(v) + (order.count(v) - 1) / 2 for v in values]
-    x, y = ranks(a), ranks(b)
-    if len(set(x)) < 2 or len(set(y)) < 2:
-        return math.nan
-    return statistics.correlation(x, y)

@@ -134,6 +134,16 @@ def variables(**values):
     return [word for name, value in values.items() for word in ("-var", name, value)]
 
 
+def write_output(texts):
+    """Writes what --output names and what lies beside it, {path: text}, and names the files."""
+    for path, text in texts.items():
+        try:
+            path.write_text(text)
+        except OSError as problem:
+            raise Failure(f"{path}: cannot be written ({problem.strerror}): give another file by --output") from None
+    sys.stdout.write(f"written: {', '.join(map(str, texts))}\n")
+
+
 def _stop(*_):
     with _lock:
         for process in _running:

@@ -6,7 +6,7 @@ import pathlib
 import sys
 
 from .. import grain_shapes
-from ..programs import Failure
+from ..programs import Failure, write_output
 from ..units import LENGTH, positive
 
 
@@ -25,10 +25,5 @@ def main():
     if options.name not in grain_shapes.GRAINS:
         raise Failure(f"'{options.name}' is not a grain; expected one of {', '.join(grain_shapes.GRAINS)}")
     file = options.output or pathlib.Path(f"{options.name}.stl")
-    text = grain_shapes.stl_of(options.name, positive("diameter", options.diameter, LENGTH)[0])
-    try:
-        file.write_text(text)
-    except OSError as problem:
-        raise Failure(f"{file}: cannot be written ({problem.strerror}): give another file by --output") from None
-    sys.stdout.write(f"written: {file}\n")
+    write_output({file: grain_shapes.stl_of(options.name, positive("diameter", options.diameter, LENGTH)[0])})
     return 0

@@ -108,10 +108,5 @@ def main():
             if isinstance(wall, patch_walls.Meshed):
                 meshes[file.parent / stl] = patch_walls.stl_text(surface)
             sys.stdout.write(f"  {name:20} {said}\n")
-    for path, text in {**meshes, file: "\n".join(lines) + "\n"}.items():
-        try:
-            path.write_text(text)
-        except OSError as problem:
-            raise Failure(f"{path}: cannot be written ({problem.strerror}): give another file by --output") from None
-    sys.stdout.write(f"written: {', '.join(map(str, [file, *meshes]))}\n")
+    programs.write_output({file: "\n".join(lines) + "\n", **meshes})
     return 0

@@ -6,7 +6,7 @@ from math import atan, degrees, sqrt
 from harness import checks
 from harness.case import Check, Fails, Group
 from harness.references import cubes_apart
-from harness.scenes import about, box, clusters, floor, material, place, pour, template, weight
+from harness.scenes import about, box, clusters, floor, material, place, pour, spheres, template, weight
 
 GROUP = Group("contact", "2. Contact", """
 A sphere rests on a slope of angle a if tan a < mu_r and tan a < mu_s; at rest means no creep, not a small one. A stack and a pile at
@@ -18,8 +18,7 @@ impact never gains energy. Two elastic spheres that are put into each other fly 
 def slope(E, mu, form, angle, d, step):
     return f'''{box("-0.05 0.05 -0.05 0.05 -0.01 0.05")}
 {material(E, 0.5, 1.0, mu_shape=mu)}
-pair_style gran model hertz tangential history rolling_friction shape form {form}
-pair_coeff * *
+{spheres("rolling_friction shape form " + form)}
 {weight(min(angle, 0.97 * degrees(atan(mu))))}
 fix floor all wall/gran model hertz tangential history rolling_friction shape primitive type 1 zplane 0.0 form {form}
 create_atoms 1 single 0 0 {d / 2 - 1e-6} units box
@@ -54,8 +53,7 @@ GROUP.case(
 def heap(E, mu, form, d, step):
     return f'''{box("-0.5 0.5 -0.5 0.5 -0.01 0.1", skin=2e-3)}
 {material(E, 0.3, 0.5, mu_shape=mu)}
-pair_style gran model hertz tangential history rolling_friction shape form {form}
-pair_coeff * *
+{spheres("rolling_friction shape form " + form)}
 {weight()}
 fix floor all wall/gran model hertz tangential history rolling_friction shape primitive type 1 zplane 0.0 form {form}
 fix grain all particletemplate/sphere 15485863 atom_type 1 density constant 2619 radius constant {d / 2}

@@ -3,7 +3,7 @@
 """Particles of all sizes and densities in all fluids, with steps far beyond the time scale of the drag."""
 from harness import checks
 from harness.case import Check, Fails, Group
-from harness.scenes import box, explicit_drag, material, mud
+from harness.scenes import box, explicit_drag, material, mud, spheres
 
 GROUP = Group("drag", "4. Drag map", """
 A particle let go in a fluid at rest moves towards its terminal velocity and never past it; a particle thrown sideways slows down and never
@@ -24,8 +24,7 @@ def let_go(diameters, ratios, step, implicit, viscosity):
     dumping = f"dump_modify 1 every 20000\nrun {later}\ndump_modify 1 every 1\nrun 1" if implicit else ""
     return f'''{box("0 0.7 0 0.4 0 0.4", "p p p", skin=2e-3)}
 {material()}
-pair_style gran model hertz tangential history
-pair_coeff * *
+{spheres()}
 {atoms}
 {settings}
 velocity all set 0.02 0 0

@@ -6,7 +6,7 @@ from math import pi
 from harness import checks_flow
 from harness.case import Check, Fails, Group
 from harness.drag_map import FLUID, SOLID, map_drive, map_gravity, map_settles, response_time
-from harness.scenes import box, held_drag, material, spheres_at
+from harness.scenes import box, held_drag, material, spheres, spheres_at
 
 GROUP = Group("drag_map", "4. Drag: map over Stokes number and coupling interval", """
 A uniform suspension (40 % solid, a sphere in each cell) sinks or rises in its fluid, and a gradient carries the submerged weight, so that nothing but drag acts between
@@ -30,8 +30,7 @@ def suspension(d, side, cell, rho, every, tau, stokes, which, kind, scheme, mu):
         drag = f"fix mud all fluid/force rheology newtonian {mu!r} density {FLUID!r} drag chien\nfix flow all fluid/couple link solver every {every}"
     return f'''{box("0 %r 0 %r 0 %r" % ((side * cell,) * 3), "p p p", skin=0.1 * d)}
 {material()}
-pair_style gran model hertz tangential history
-pair_coeff * *
+{spheres()}
 {atoms}
 set group all diameter {d} density {rho}
 timestep {stokes[which] * tau / every}

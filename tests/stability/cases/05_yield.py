@@ -6,7 +6,7 @@ from math import pi
 from harness import checks
 from harness.case import Check, Fails, Group
 from harness.references import ANSLEY_SMITH, sphere_mass
-from harness.scenes import box, explicit_drag, material, mud
+from harness.scenes import box, explicit_drag, material, mud, spheres
 
 GROUP = Group("yield", "5. Yield stress", """
 A sphere is held once the yield force (pi/8) d^2 30 (7 pi/24) tau0 reaches its submerged weight: tau0 >= 0.0485 (rho_p - rho_f) g d, 4.89 Pa for
@@ -20,8 +20,7 @@ def held(d, start, step, implicit, tau0):
     fluid = mud(f"herschel_bulkley {tau0!r} 0.28 0.65") if implicit else explicit_drag(tau0, 0.28, 0.65, 1000)
     return f'''{box("0 0.1 0 0.1 0 0.4", "p p p", skin=2e-3)}
 {material()}
-pair_style gran model hertz tangential history
-pair_coeff * *
+{spheres()}
 create_atoms 1 single 0.05 0.05 0.2 units box
 set group all diameter {d} density 2619
 velocity all set {start} 0.02 0.01
@@ -59,8 +58,7 @@ def through_zero(d, step, implicit, tau0):
     fluid = mud(f"herschel_bulkley {tau0!r} 0.28 0.65", "v_u 0 0") if implicit else explicit_drag(tau0, 0.28, 0.65, 1000, "v_u")
     return f'''{box("0 0.1 0 0.1 0 0.4", "p p p", skin=2e-3)}
 {material()}
-pair_style gran model hertz tangential history
-pair_coeff * *
+{spheres()}
 create_atoms 1 single 0.05 0.05 0.2 units box
 set group all diameter {d} density 1000
 timestep {step}

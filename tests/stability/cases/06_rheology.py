@@ -23,6 +23,16 @@ gap moves no faster than its cap of viscosity lets it creep, G h^2/(12 muY). A c
               })
 
 
+def channel(steps, step, tau0, rate, n, k, cap, drive, ratio, gap):
+    """What the dictionaries of the channel read."""
+    sheared = consistency(tau0, rate, n, k)
+    gradient = wall_stress(drive, tau0, sheared, rate, n) / (gap / 2)
+    return {"end": steps * step, "consistency_": sheared, "muY": cap or ratio * sheared, "gradient": drive_words(drive, gradient, steps * step)}
+
+
+CHANNEL = {"files": ["rheology"], "settings": channel, "commands": ["blockMesh", "annulusFoam"]}
+
+
 GROUP.case(
     "n{n}_tau0{tau0}_ratio{ratio}",
     "channel, n = {n}, tau0 = {tau0} Pa, muY/k = {ratio}, from rest by steps of 1000 s",
@@ -30,12 +40,7 @@ GROUP.case(
     seconds=1,
     vary={"n": [0.2, 0.5, 1.0, 1.5], "tau0": [0.0, 2.0], "ratio": [100.0, 10000.0, 1e6]},
     values={"drive": "steady"},
-    files=["rheology"],
-    settings=lambda steps, step, tau0, rate, n, k, cap, drive, ratio, gap: {"end": steps * step, "consistency_": consistency(tau0, rate, n, k),
-                                                                            "muY": cap or ratio * consistency(tau0, rate, n, k),
-                                                                            "gradient": drive_words(drive, wall_stress(drive, tau0, consistency(tau0,
-                                                                            rate, n, k), rate, n) / (gap / 2), steps * step)},
-    commands=["blockMesh", "annulusFoam"],
+    **CHANNEL,
     checks=[
         Check("mean velocity against the closed form, relative error", checks_flow.channel_error, below=0.03),
     ],
@@ -52,12 +57,7 @@ GROUP.case(
     seconds=1,
     vary={"n": [0.2]},
     values={"drive": "steady", "tau0": 2.0, "ratio": 10000.0, "rate": 18593.4},
-    files=["rheology"],
-    settings=lambda steps, step, tau0, rate, n, k, cap, drive, ratio, gap: {"end": steps * step, "consistency_": consistency(tau0, rate, n, k),
-                                                                            "muY": cap or ratio * consistency(tau0, rate, n, k),
-                                                                            "gradient": drive_words(drive, wall_stress(drive, tau0, consistency(tau0,
-                                                                            rate, n, k), rate, n) / (gap / 2), steps * step)},
-    commands=["blockMesh", "annulusFoam"],
+    **CHANNEL,
     checks=[
         Check("mean velocity against the closed form, relative error", checks_flow.channel_error, below=0.03),
     ],
@@ -72,12 +72,7 @@ GROUP.case(
     seconds=1,
     vary={"n": [0.2, 0.5, 1.5], "tau0": [0.0, 2.0]},
     values={"ratio": 10000.0, "drive": "turns", "step": 0.5, "steps": 1200, "sign": -1},
-    files=["rheology"],
-    settings=lambda steps, step, tau0, rate, n, k, cap, drive, ratio, gap: {"end": steps * step, "consistency_": consistency(tau0, rate, n, k),
-                                                                            "muY": cap or ratio * consistency(tau0, rate, n, k),
-                                                                            "gradient": drive_words(drive, wall_stress(drive, tau0, consistency(tau0,
-                                                                            rate, n, k), rate, n) / (gap / 2), steps * step)},
-    commands=["blockMesh", "annulusFoam"],
+    **CHANNEL,
     checks=[
         Check("mean velocity against minus the closed form, relative error", checks_flow.reversed_channel_error, below=0.03),
     ],
@@ -93,12 +88,7 @@ GROUP.case(
     seconds=3,
     vary={"n": [0.5, 1.0], "tau0": [0.0, 2.0]},
     values={"ratio": 10000.0, "drive": "stops", "step": 0.02, "steps": 600, "progress": 0},
-    files=["rheology"],
-    settings=lambda steps, step, tau0, rate, n, k, cap, drive, ratio, gap: {"end": steps * step, "consistency_": consistency(tau0, rate, n, k),
-                                                                            "muY": cap or ratio * consistency(tau0, rate, n, k),
-                                                                            "gradient": drive_words(drive, wall_stress(drive, tau0, consistency(tau0,
-                                                                            rate, n, k), rate, n) / (gap / 2), steps * step)},
-    commands=["blockMesh", "annulusFoam"],
+    **CHANNEL,
     checks=[
         Check("largest rise of the mean velocity after the stop / velocity before it", checks_flow.rise_after_the_stop, below=1e-9),
         Check("mean velocity at the end / (1.3 U exp(-pi2 nu t/h2) + 1e-9 m/s), nu that of the wall before", checks_flow.decay_after_the_stop,
@@ -115,12 +105,7 @@ GROUP.case(
     seconds=1,
     vary={"ratio": [100.0, 10000.0, 1e6]},
     values={"n": 0.65, "tau0": 2.0, "drive": "plug"},
-    files=["rheology"],
-    settings=lambda steps, step, tau0, rate, n, k, cap, drive, ratio, gap: {"end": steps * step, "consistency_": consistency(tau0, rate, n, k),
-                                                                            "muY": cap or ratio * consistency(tau0, rate, n, k),
-                                                                            "gradient": drive_words(drive, wall_stress(drive, tau0, consistency(tau0,
-                                                                            rate, n, k), rate, n) / (gap / 2), steps * step)},
-    commands=["blockMesh", "annulusFoam"],
+    **CHANNEL,
     checks=[
         Check("creep / (G h^2 / (12 muY))", checks_flow.plug_creep, below=1.02),
         Check("creep / (G h^2 / (12 muY)), from below", checks_flow.plug_creep, above=0.98),

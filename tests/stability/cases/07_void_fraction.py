@@ -5,7 +5,7 @@ from math import sqrt
 
 from harness import checks, checks_flow
 from harness.case import Check, Fails, Group
-from harness.scenes import box, material, plug, spheres_at, weight, weight_along
+from harness.scenes import box, material, plug, spheres, spheres_at, weight, weight_along
 
 GROUP = Group("void_fraction", "7. Void fraction", """
 A particle does not know of cells: dragged at a steady speed it feels a steady force, whatever cells it crosses (a straight line is taken
@@ -31,22 +31,39 @@ rho L dU/dt with dU = V/(A dt), between the spheres 1/alpha times that (factor 2
               })
 
 
-def crossing_cells(wide, high, d, fluid_step, viscosity, density, cells):
-    return f'''{box("0 %r 0 %r 0 %r" % (wide, wide, high), "p p p", skin=2e-3)}
+def cells_and_fluid(viscosity, density, wide, cell, high):
+    """What the dictionaries of the box read."""
+    return {"cells_across": round(wide / cell), "cells_along": round(high / cell), "nu": viscosity / density}
+
+
+BOX = {"files": ["void_fraction"], "settings": cells_and_fluid, "commands": ["blockMesh", "annulusFoam"]}
+
+
+def coupled(viscosity, density, every):
+    """Drag and pressure gradient of a flow that is computed every so many steps."""
+    return (f"fix mud all fluid/force rheology newtonian {viscosity} density {density} drag chien pressure_gradient on buoyancy off\n"
+            f"fix flow all fluid/couple link solver every {every}\n")
+
+
+def dragged(wide, high, x, d, fluid_step, viscosity, density, seconds, processors="* * *"):
+    """A heavy sphere at a steady speed through the box."""
+    return f'''{box("0 %r 0 %r 0 %r" % (wide, wide, high), "p p p", skin=2e-3, processors=processors)}
 {material()}
-pair_style gran model hertz tangential history
-pair_coeff * *
-create_atoms 1 single {0.3 * wide} {0.4 * wide} {0.1 * high} units box
+{spheres()}
+create_atoms 1 single {x} {0.4 * wide} {0.1 * high} units box
 set group all diameter {d} density 1e9
 velocity all set 0.013 0.007 0.1
 timestep {fluid_step / 25}
 fix move all nve/sphere
-fix mud all fluid/force rheology newtonian {viscosity} density {density} drag chien pressure_gradient on buoyancy off
-fix flow all fluid/couple link solver every 25
+{coupled(viscosity, density, 25)}
 thermo 5
 thermo_style custom step f_mud[1] f_mud[3] f_mud[12]
-run {25 * round(2.2 * max(high / 3, 2 * cells * d) / 0.1 / fluid_step)}
+run {25 * round(seconds / fluid_step)}
 '''
+
+
+def crossing_cells(wide, high, d, fluid_step, viscosity, density, cells):
+    return dragged(wide, high, 0.3 * wide, d, fluid_step, viscosity, density, 2.2 * max(high / 3, 2 * cells * d) / 0.1)
 
 
 GROUP.case(
@@ -57,10 +74,7 @@ GROUP.case(
     seconds=10,
     vary={"cells": [0.25, 0.5, 1.0, 2.0, 4.0], "viscosity": [0.1, 1.0, 10.0]},
     derive=lambda cells, d: {"cell": cells * d, "wide": max(6, 4 * cells) * d, "high": max(6, 4 * cells) * d},
-    files=["void_fraction"],
-    settings=lambda viscosity, density, wide, cell, high: {"cells_across": round(wide / cell), "cells_along": round(high / cell),
-                                                           "nu": viscosity / density},
-    commands=["blockMesh", "annulusFoam"],
+    **BOX,
     checks=[
         Check("spread of the force on the sphere about its straight line, (largest - smallest) / mean", checks_flow.spread_of_force, below=0.02),
         Check("error of the solid volume on the mesh", checks_flow.volume_error, below=1e-12),
@@ -72,21 +86,7 @@ GROUP.case(
 
 
 def crossing_ranks(wide, high, shift, ranks, d, fluid_step, viscosity, density):
-    return f'''{box("0 %r 0 %r 0 %r" % (wide, wide, high), "p p p", skin=2e-3, processors="1 1 *")}
-{material()}
-pair_style gran model hertz tangential history
-pair_coeff * *
-create_atoms 1 single {0.3 * wide + (shift if ranks > 1 else 0)} {0.4 * wide} {0.1 * high} units box
-set group all diameter {d} density 1e9
-velocity all set 0.013 0.007 0.1
-timestep {fluid_step / 25}
-fix move all nve/sphere
-fix mud all fluid/force rheology newtonian {viscosity} density {density} drag chien pressure_gradient on buoyancy off
-fix flow all fluid/couple link solver every 25
-thermo 5
-thermo_style custom step f_mud[1] f_mud[3] f_mud[12]
-run {25 * round(0.8 * high / 0.1 / fluid_step)}
-'''
+    return dragged(wide, high, 0.3 * wide + (shift if ranks > 1 else 0), d, fluid_step, viscosity, density, 0.8 * high / 0.1, "1 1 *")
 
 
 GROUP.case(
@@ -97,8 +97,7 @@ GROUP.case(
     derive=lambda d: {"cell": d, "wide": 6 * d, "high": 6 * d},
     runs=[{"ranks": 1}, {"ranks": 2}],
     files=["void_fraction"],
-    settings=lambda viscosity, density, wide, cell, high: {"cells_across": round(wide / cell), "cells_along": round(high / cell),
-                                                           "nu": viscosity / density},
+    settings=cells_and_fluid,
     commands=lambda ranks: ["serial blockMesh", f"serial {'decomposePar' if ranks > 1 else 'true'}",
                             f"annulusFoam {'-parallel' if ranks > 1 else ''}"],
     checks=[
@@ -115,14 +114,12 @@ def bed_beside_clear_fluid(wide, high, d, fluid_step, viscosity, density):
     (k + 0.6) * d) for i in range(4) for j in range(8) for k in range(8))
     return f'''{box("0 %r 0 %r 0 %r" % (wide, wide, high), "p p p", skin=2e-3)}
 {material()}
-pair_style gran model hertz tangential history
-pair_coeff * *
+{spheres()}
 {atoms}
 set group all diameter {d} density 2619
 timestep {fluid_step / 5}
 fix hold all freeze
-fix mud all fluid/force rheology newtonian {viscosity} density {density} drag chien pressure_gradient on buoyancy off
-fix flow all fluid/couple link solver every 5
+{coupled(viscosity, density, 5)}
 thermo 50
 thermo_style custom step atoms f_mud[1] f_mud[10]
 run 2000
@@ -140,10 +137,7 @@ GROUP.case(
     vary={"cells": [0.4, 0.8, 2.0]},
     values={"viscosity": 1.0, "drive": "type pressureGradient; direction (1 0 0); gradient 1000;"},
     derive=lambda cells, d: {"cell": cells * d, "wide": 8 * d, "high": 8 * d},
-    files=["void_fraction"],
-    settings=lambda viscosity, density, wide, cell, high: {"cells_across": round(wide / cell), "cells_along": round(high / cell),
-                                                           "nu": viscosity / density},
-    commands=["blockMesh", "annulusFoam"],
+    **BOX,
     checks=[
         Check("drag and pressure forces on the bed / (G V) - 1", checks_flow.force_balance_error, below=0.01),
         Check("largest / smallest drag among the like spheres of a layer", checks_flow.unlike_drag, below=1.2),
@@ -164,14 +158,12 @@ def inserted_and_removed(wide, high, d, fluid_step, viscosity, density, remove):
     (1.4 * k + 5) * d) for i in range(4) for j in range(4) for k in range(4))
     return f'''{box("0 %r 0 %r 0 %r" % (wide, wide, high), "p p f", skin=2e-3)}
 {material()}
-pair_style gran model hertz tangential history
-pair_coeff * *
+{spheres()}
 create_atoms 1 single {0.3 * wide} {0.4 * wide} {2 * d} units box
 set group all diameter {d} density 2619
 timestep {fluid_step / 5}
 fix hold all freeze
-fix mud all fluid/force rheology newtonian {viscosity} density {density} drag chien pressure_gradient on buoyancy off
-fix flow all fluid/couple link solver every 5
+{coupled(viscosity, density, 5)}
 run 500
 {atoms}
 set group all diameter {d} density 2619
@@ -192,10 +184,7 @@ GROUP.case(
             "inlet_U": "type fixedValue; value uniform (0 0 0.05);", "outlet_U": "type pressureInletOutletVelocity; value uniform (0 0 0);",
             "inlet_p": "type zeroGradient;", "outlet_p": "type fixedValue; value uniform 0;", "extra": "length 0.019;"},
     derive=lambda d: {"cell": d, "wide": 6 * d, "high": 16 * d},
-    files=["void_fraction"],
-    settings=lambda viscosity, density, wide, cell, high: {"cells_across": round(wide / cell), "cells_along": round(high / cell),
-                                                           "nu": viscosity / density},
-    commands=["blockMesh", "annulusFoam"],
+    **BOX,
     checks=[
         Check("largest pressure gradient / (2 rho dU/dt / least fraction), dU = V/(A dt)", checks_flow.insertion_pressure, below=1),
         Check("pressure gradient with the spheres at the end of the second part / its mean over the last 40 steps, - 1",
@@ -211,15 +200,13 @@ GROUP.case(
 def blocked_annulus(hole, length, pipe, offset, d, part, fluid_step, viscosity, density):
     return f'''{box("%r %r %r %r 0 %r" % (-hole, hole, -hole, hole, length), "f f p", skin=2e-3)}
 {material()}
-pair_style gran model hertz tangential history
-pair_coeff * *
+{spheres()}
 {weight_along("0 0 -1")}
 {plug(hole, pipe, offset, d, part * length)}
 set group all diameter {d} density 2619
 timestep {fluid_step / 5}
 fix hold all freeze
-fix mud all fluid/force rheology newtonian {viscosity} density {density} drag chien pressure_gradient on buoyancy off
-fix flow all fluid/couple link solver every 5
+{coupled(viscosity, density, 5)}
 thermo 50
 thermo_style custom step atoms f_mud[3] f_mud[12]
 run 500
@@ -236,8 +223,7 @@ GROUP.case(
             "drive": "type meanVelocity; Ubar 0.1; direction (0 0 1); initialGradient 1000;", "fluid_step": 5e-3, "cell": 1.0, "wide": 1.0,
             "high": 1.0, "parts": "(8 32 8)", "part": 0.76},
     files=["void_fraction", "void_fraction/blocked_annulus"],
-    settings=lambda viscosity, density, wide, cell, high: {"cells_across": round(wide / cell), "cells_along": round(high / cell),
-                                                           "nu": viscosity / density},
+    settings=cells_and_fluid,
     commands=["annulusMesh", "annulusFoam"],
     checks=[
         Check("solid volume / volume", checks_flow.solid_share, above=0.28),
@@ -257,8 +243,7 @@ def pushed_bed(wide, high, layers, across, d, push, viscosity, density, fluid_st
     (k * sqrt(0.5) + 0.5) * d) for k in range(layers) for i in range(across) for j in range(across))
     return f'''{box("0 %r 0 %r 0 %r" % (wide, wide, high), "p p f", skin=2e-3)}
 {material(5e6, 0.5, 0.5)}
-pair_style gran model hertz tangential history
-pair_coeff * *
+{spheres()}
 {weight()}
 {atoms}
 set group all diameter {d} density 2619
@@ -289,10 +274,7 @@ GROUP.case(
             "outlet_U": "type noSlip;", "inlet_p": "type zeroGradient;", "outlet_p": "type zeroGradient;", "momentum": "semiImplicit",
             "again": False},
     derive=lambda d, across, momentum: {"cell": d, "wide": across * d, "high": 6 * d, "extra": 'momentum %s;' % momentum},
-    files=["void_fraction"],
-    settings=lambda viscosity, density, wide, cell, high: {"cells_across": round(wide / cell), "cells_along": round(high / cell),
-                                                           "nu": viscosity / density},
-    commands=["blockMesh", "annulusFoam"],
+    **BOX,
     checks=[
         Check("spheres", checks.bodies, equals=lambda layers, across: layers * across ** 2),
         Check("fastest sphere at the end / a twentieth of the push", checks_flow.fastest_at_the_end, below=1),

@@ -5,12 +5,21 @@ from math import pi
 
 from harness import checks, checks_flow
 from harness.case import Check, Fails, Group
-from harness.scenes import box, material, spheres_at, weight_along
+from harness.scenes import box, material, spheres, spheres_at, weight_along
 
 GROUP = Group("geometry", "8. Geometry", """
 A Newtonian fluid in an eccentric annulus has the pressure gradient of Piercy, Hooper & Winny (1933), whatever the inclination (p_rgh) and, in
 creeping flow, whatever the speed of the pipe: turning moves nothing along the axis. Viscosity 1 Pa s: the flow creeps.""",
               {"hole": 0.0635, "pipe": 0.02413, "Ubar": 0.01, "viscosity": 1.0, "cells": "(12 48 2)", "steps": 40})
+
+
+def annulus(steps, viscosity, e, hole, pipe, rpm):
+    """What the dictionaries of the annulus read."""
+    return {"end": steps * 10, "nu": viscosity / 1000, "pipe_y": -e * (hole - pipe), "omega": rpm * pi / 30}
+
+
+PIERCY = Check("pressure gradient against Piercy's, relative error", checks_flow.annulus_error, below=0.02)
+COARSE = Fails("two cells across the gap", set={"cells": "(2 8 2)"})
 
 
 GROUP.case(
@@ -20,14 +29,13 @@ GROUP.case(
     seconds=8,
     vary={"e": [0.0, 0.5, 0.8, 0.95], "rpm": [0], "inclination": [80]},
     files=["geometry"],
-    settings=lambda steps, viscosity, e, hole, pipe, rpm: {"end": steps * 10, "nu": viscosity / 1000, "pipe_y": -e * (hole - pipe),
-                                                           "omega": rpm * pi / 30},
+    settings=annulus,
     commands=["annulusMesh", "annulusFoam"],
     checks=[
-        Check("pressure gradient against Piercy's, relative error", checks_flow.annulus_error, below=0.02),
+        PIERCY,
     ],
     fails=[
-        Fails("two cells across the gap", set={"cells": "(2 8 2)"}),
+        COARSE,
     ])
 
 
@@ -38,14 +46,13 @@ GROUP.case(
     vary={"e": [0.0, 0.5, 0.9, 0.95], "inclination": [0, 40, 90, 100]},
     values={"rpm": 300, "viscosity": 20.0},
     files=["geometry"],
-    settings=lambda steps, viscosity, e, hole, pipe, rpm: {"end": steps * 10, "nu": viscosity / 1000, "pipe_y": -e * (hole - pipe),
-                                                           "omega": rpm * pi / 30},
+    settings=annulus,
     commands=["annulusMesh", "annulusFoam"],
     checks=[
-        Check("pressure gradient against Piercy's, relative error", checks_flow.annulus_error, below=0.02),
+        PIERCY,
     ],
     fails=[
-        Fails("two cells across the gap", set={"cells": "(2 8 2)"}),
+        COARSE,
     ])
 
 
@@ -54,8 +61,7 @@ def narrow_gap(hole, pipe_wall, pipe, e, d):
     -0.012 - 0.0075 * (i // 12) + (0.002 if s > 0 else 0), 0.004 + 0.008 * (i % 6)) for s in (-1, 1) for i in range(30))
     return f'''{box("%r %r %r %r 0 0.05" % (-hole, hole, -hole, hole), "f f p", skin=2e-3)}
 {material(5e6, 0.5, 0.5)}
-pair_style gran model hertz tangential history
-pair_coeff * *
+{spheres()}
 {weight_along("0 -1 0")}
 fix bore all wall/gran/cluster model hertz tangential history primitive type 1 zcylinder {hole} 0 0
 {"fix pipe all wall/gran/cluster model hertz tangential history primitive type 1 zcylinder %r 0 %r" % (pipe, -e * (hole - pipe)) if pipe_wall else ""}
@@ -81,8 +87,7 @@ GROUP.case(
     seconds=60,
     values={"e": 0.9, "rpm": 0, "inclination": 90, "d": 6.35e-3, "pipe_wall": True},
     files=["geometry", "geometry/narrow_gap"],
-    settings=lambda steps, viscosity, e, hole, pipe, rpm: {"end": steps * 10, "nu": viscosity / 1000, "pipe_y": -e * (hole - pipe),
-                                                           "omega": rpm * pi / 30},
+    settings=annulus,
     commands=["annulusMesh", "annulusFoam"],
     checks=[
         Check("spheres", checks.bodies_in_frame, equals=60),

@@ -4,7 +4,7 @@
 from harness import checks
 from harness.case import Check, Fails, Group
 from harness.references import sphere_mass
-from harness.scenes import box, clusters, floor, material, pour, template, weight
+from harness.scenes import box, clusters, floor, material, pour, spheres, template, weight
 
 GROUP = Group("long", "11. Long run", """
 A bed at rest is at rest for ever: energy, height and momentum do not drift, and memory does not grow. (--full: 1e7 steps.)""",
@@ -57,8 +57,7 @@ GROUP.case(
 def spheres_at_rest(form, d, count, steps):
     return f'''{box("0 0.0175 0 0.0175 -0.002 0.2", "p p f", skin=2e-3)}
 {material(5e6, 0.5, 0.5, mu_shape=0.32)}
-pair_style gran model hertz tangential history rolling_friction shape form {form}
-pair_coeff * *
+{spheres("rolling_friction shape form " + form)}
 {weight()}
 fix floor all wall/gran model hertz tangential history rolling_friction shape primitive type 1 zplane 0.0 form {form}
 fix body all particletemplate/sphere 15485863 atom_type 1 density constant 2619 radius constant {d / 2}

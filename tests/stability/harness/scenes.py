@@ -46,6 +46,11 @@ def clusters(words=""):
     return f"pair_style gran/cluster model hertz tangential history {words}\npair_coeff * *\n"
 
 
+def spheres(words=""):
+    """Contact model of plain spheres."""
+    return f"pair_style gran model hertz tangential history{' ' if words else ''}{words}\npair_coeff * *\n"
+
+
 def weight(angle=0.0):
     """Gravity; angle [degrees] of a slope that descends along +x."""
     a = math.radians(angle)
