@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <regex>
@@ -17,6 +18,7 @@
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 using namespace eccentra;
 using namespace eccentra::test;
@@ -25,14 +27,28 @@ using styles::StockStyle;
 
 namespace {
 
+/// One row for all names of which the same is said: first what is refused, then what is made right, then what acts.
 std::string table_of(StockKind kind, const std::string& title) {
-  std::string text = "\n## " + title + "\n| name | with clusters | because it | instead |\n|---|---|---|---|\n";
   const char* const verdicts[] = {"acts", "made right", "refused"};
+  std::vector<std::pair<std::string, std::string>> rows[3][2]; // names, and the other columns
   for (const StockStyle& style : styles::stock_styles())
-    if (style.kind == kind)
-      text += "| `" + std::string(style.name) + "` | " + verdicts[static_cast<int>(style.verdict)] +
-              (style.reach == styles::StockReach::group ? " (its group)" : "") + " | " + style.reason + " | " +
-              style.remedy + " |\n";
+    if (style.kind == kind) {
+      const int verdict = static_cast<int>(style.verdict), group = style.reach == styles::StockReach::group;
+      const std::string name = "`" + std::string(style.name) + "`", rest = std::string(" | ") + verdicts[verdict] +
+                                                                           (group ? " (its group)" : "") + " | " +
+                                                                           style.reason + " | " + style.remedy + " |\n";
+      auto& same = rows[verdict][group];
+      const auto found = std::find_if(same.begin(), same.end(), [&](const auto& row) { return row.second == rest; });
+      if (found == same.end())
+        same.emplace_back(name, rest);
+      else
+        found->first += ", " + name;
+    }
+  std::string text = "\n## " + title + "\n| names | with clusters | because it | instead |\n|---|---|---|---|\n";
+  for (int verdict = 2; verdict >= 0; --verdict)
+    for (const auto& part : rows[verdict])
+      for (const auto& [names, rest] : part)
+        text += "| " + names + rest;
   return text;
 }
 
