@@ -3,8 +3,12 @@
 // Implements bed_picture.h with VTK.
 #include "report/bed_picture.h"
 
+#include "report/case_parameters.h"
+#include "report/flow_fields.h"
 #include "report/picture_file.h"
 #include "report/picture_parts.h"
+#include "report/picture_scales.h"
+#include "report/scene_picture.h"
 
 #include <vtkActor.h>
 #include <vtkLineSource.h>
@@ -123,9 +127,15 @@ void draw_beds(const std::vector<Case>& cases, const std::filesystem::path& file
   const double scale = pixels_per_hole / hole;
   const double cross_height = margin * hole;
   double width = 0;
-  for (const double w : widths)
-    width += w * scale;
-  const double height = (side_height + cross_height) * scale + kLegendPixels + kTitlePixels;
+  std::vector<std::vector<std::string>> lines;
+  std::size_t most_lines = 0;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    width += widths[i] * scale;
+    lines.push_back(wrapped(caption_of_parameters(*scenes[i].data), widths[i] * scale));
+    most_lines = std::max(most_lines, lines.back().size());
+  }
+  const double titles = title_pixels(most_lines), bottom = kLegendPixels + kScalePixels;
+  const double height = (side_height + cross_height) * scale + bottom + titles;
 
   const auto window = vtkSmartPointer<vtkRenderWindow>::New();
   window->SetOffScreenRendering(1);
@@ -141,10 +151,13 @@ void draw_beds(const std::vector<Case>& cases, const std::filesystem::path& file
   double left = 0;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const double right = left + widths[i] * scale;
-    const double side_bottom = kLegendPixels + cross_height * scale;
-    side_view(*viewport(left, right, side_bottom, height - kTitlePixels), scenes[i], colours, side_height / 2);
-    cross_section(*viewport(left, right, kLegendPixels, side_bottom), scenes[i], colours, cross_height / 2);
-    add_text(*viewport(left, right, height - kTitlePixels, height), scenes[i].data->name, kTextSize + 4, 0.5, 0.4);
+    const double side_bottom = bottom + cross_height * scale;
+    side_view(*viewport(left, right, side_bottom, height - titles), scenes[i], colours, side_height / 2);
+    cross_section(*viewport(left, right, bottom, side_bottom), scenes[i], colours, cross_height / 2);
+    const double angle = scenes[i].data->inclination * pi / 180;
+    add_scales(*viewport(left, right, kLegendPixels, bottom),
+               {right - left, scale, true, {std::sin(angle), std::cos(angle)}});
+    add_title(*viewport(left, right, height - titles, height), title_of(*scenes[i].data), lines[i], titles);
     left = right;
   }
   const auto legend = viewport(0, width, 0, kLegendPixels);

@@ -5,17 +5,10 @@
 
 #include "base/scene_file.h"
 
-#include <vtkAppendFilter.h>
 #include <vtkAppendPolyData.h>
-#include <vtkCompositeDataIterator.h>
 #include <vtkDataArray.h>
-#include <vtkDummyController.h>
-#include <vtkInformation.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPOpenFOAMReader.h>
 #include <vtkPointData.h>
 #include <vtkPolyDataReader.h>
-#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
@@ -91,19 +84,6 @@ std::vector<ParticleFile> find_files(const fs::path& folder, const std::regex& p
   }
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.step < b.step; });
   return files;
-}
-
-/// The last time that a folder of fields holds, -1 if it holds none after the start.
-double latest_time(const fs::path& folder) {
-  double latest = -1;
-  for (const auto& item : fs::directory_iterator(folder)) {
-    const std::string name = item.path().filename().string();
-    char* end = nullptr;
-    const double time = std::strtod(name.c_str(), &end);
-    if (item.is_directory() && *end == '\0' && time > 0)
-      latest = std::max(latest, time);
-  }
-  return latest;
 }
 
 } // namespace
@@ -211,6 +191,7 @@ Snapshot read_snapshot(const ParticleFile& file) {
   vtkDataArray* radius = data.GetArray("radius");
   vtkDataArray* mass = data.GetArray("mass");
   vtkDataArray* density = data.GetArray("density");
+  vtkDataArray* type = data.GetArray("type");
   const bool by_mass = mass != nullptr && density != nullptr;
   if (points->GetNumberOfPoints() > 0 && (velocity == nullptr || (radius == nullptr && !by_mass)))
     throw std::runtime_error(file.path.string() +
@@ -227,6 +208,10 @@ Snapshot read_snapshot(const ParticleFile& file) {
     // The radius of a cluster is that of its bounding sphere.
     snapshot.volume.push_back(by_mass ? mass->GetTuple1(i) / density->GetTuple1(i)
                                       : sphere * std::pow(radius->GetTuple1(i), 3));
+    if (radius != nullptr)
+      snapshot.radius.push_back(radius->GetTuple1(i));
+    if (type != nullptr)
+      snapshot.type.push_back(static_cast<int>(type->GetTuple1(i)));
   }
   return snapshot;
 }
@@ -234,53 +219,6 @@ Snapshot read_snapshot(const ParticleFile& file) {
 vtkDataArray* velocity_of(vtkPolyData& points) {
   vtkDataArray* velocity = points.GetPointData()->GetArray("velocity");
   return velocity != nullptr ? velocity : points.GetPointData()->GetArray("v");
-}
-
-vtkSmartPointer<vtkUnstructuredGrid> read_flow(const fs::path& folder, double time) {
-  const fs::path control_file = folder / "system" / "controlDict";
-  if (!fs::is_regular_file(control_file))
-    return nullptr;
-  const auto reader = vtkSmartPointer<vtkPOpenFOAMReader>::New();
-  const std::string control = control_file.string();
-  reader->SetFileName(control.c_str());
-  // Without a controller, which nobody but MPI sets, VTK 9.1 follows a null pointer where a case is in parts.
-  const auto alone = vtkSmartPointer<vtkDummyController>::New();
-  reader->SetController(alone);
-  const fs::path first_part = folder / "processor0";
-  const bool parts = fs::is_directory(first_part) && latest_time(first_part) > latest_time(folder);
-  reader->SetCaseType(parts ? vtkPOpenFOAMReader::DECOMPOSED_CASE : vtkPOpenFOAMReader::RECONSTRUCTED_CASE);
-  reader->SkipZeroTimeOff();
-  reader->UpdateInformation();
-  vtkInformation& information = *reader->GetOutputInformation(0);
-  if (!information.Has(vtkStreamingDemandDrivenPipeline::TIME_STEPS()))
-    return nullptr;
-  const int count = information.Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
-  const double* times = information.Get(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
-  if (count == 0)
-    return nullptr;
-  reader->DisableAllPatchArrays();
-  reader->SetPatchArrayStatus("internalMesh", 1);
-  reader->DisableAllCellArrays();
-  reader->SetCellArrayStatus("U", 1);
-  reader->CreateCellToPointOn();
-  const double* chosen = times + count - 1;
-  if (time >= 0)
-    chosen = std::min_element(times, times + count,
-                              [time](double a, double b) { return std::abs(a - time) < std::abs(b - time); });
-  reader->UpdateTimeStep(*chosen);
-  const auto together = vtkSmartPointer<vtkAppendFilter>::New();
-  auto* blocks = vtkMultiBlockDataSet::SafeDownCast(reader->GetOutputDataObject(0));
-  if (blocks == nullptr)
-    return nullptr;
-  const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
-  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
-    if (auto* grid = vtkUnstructuredGrid::SafeDownCast(iterator->GetCurrentDataObject()))
-      together->AddInputData(grid);
-  if (together->GetNumberOfInputConnections(0) == 0)
-    return nullptr;
-  together->Update();
-  vtkSmartPointer<vtkUnstructuredGrid> grid = together->GetOutput();
-  return grid->GetPointData()->HasArray("U") ? grid : nullptr;
 }
 
 } // namespace eccentra::report

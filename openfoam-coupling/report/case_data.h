@@ -9,7 +9,6 @@
 #include <vtkDataArray.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
-#include <vtkUnstructuredGrid.h>
 
 #include <filesystem>
 #include <map>
@@ -60,9 +59,5 @@ vtkSmartPointer<vtkPolyData> read_points(const std::filesystem::path& file);
 
 /// The velocities as dump cluster/vtk or dump custom/vtk name them, or null.
 vtkDataArray* velocity_of(vtkPolyData& points);
-
-/// The mesh with the U written last (point data), or null if the run wrote no time; whole or in parts of processors.
-/// With `time` >= 0 the one that was written next to it.
-vtkSmartPointer<vtkUnstructuredGrid> read_flow(const std::filesystem::path& folder, double time = -1);
 
 } // namespace eccentra::report

@@ -16,12 +16,14 @@
 #include <vtkPlot.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkSVGExporter.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkTextProperty.h>
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 
 namespace eccentra::report {
 namespace {
@@ -100,7 +102,7 @@ void over_time(vtkChartXY& chart, const std::vector<Case>& cases, const char* na
 } // namespace
 
 void draw_charts(const std::vector<Case>& cases, const std::vector<Summary>& summaries,
-                 const std::filesystem::path& file) {
+                 const std::filesystem::path& folder) {
   constexpr float width = 1600;
   constexpr float height = 1200;
   constexpr float gap = 15;
@@ -166,7 +168,15 @@ void draw_charts(const std::vector<Case>& cases, const std::vector<Summary>& sum
   axis.SetRange(-0.6, static_cast<double>(summaries.size()) - 0.4);
 
   view->GetRenderWindow()->Render();
-  write_png(*view->GetRenderWindow(), file);
+  write_png(*view->GetRenderWindow(), folder / "charts.png");
+  const auto vectors = vtkSmartPointer<vtkSVGExporter>::New();
+  const std::string path = (folder / "charts.svg").string();
+  vectors->SetRenderWindow(view->GetRenderWindow());
+  vectors->SetFileName(path.c_str());
+  vectors->SetTitle("Eccentra: charts of a run");
+  vectors->Write();
+  if (!std::filesystem::is_regular_file(path))
+    throw std::runtime_error(path + ": cannot be written: check the folder and the space on the disk");
 }
 
 } // namespace eccentra::report

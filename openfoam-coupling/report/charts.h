@@ -7,8 +7,9 @@
 
 namespace eccentra::report {
 
-/// Writes a PNG. `cases` and `summaries` belong together row by row. Needs a display (shape::VirtualDisplay).
+/// Writes charts.png and charts.svg. `cases` and `summaries` belong together row by row. Needs a display
+/// (shape::VirtualDisplay).
 void draw_charts(const std::vector<Case>& cases, const std::vector<Summary>& summaries,
-                 const std::filesystem::path& file);
+                 const std::filesystem::path& folder);
 
 } // namespace eccentra::report

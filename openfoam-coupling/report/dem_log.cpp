@@ -100,6 +100,7 @@ struct Placed {
 /// `fix ID group mesh/surface... file F type T ...`
 Placed placed(const Words& words) {
   Placed result;
+  result.mesh.id = words[1];
   result.turned = place_of(words, "rotate") < words.size();
   for (std::size_t i = 4; i + 1 < words.size(); ++i) {
     if (words[i] == "file")

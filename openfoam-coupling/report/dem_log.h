@@ -24,6 +24,7 @@ struct Wall {
 
 /// A triangle mesh of the script: the file, and what places it, in this order.
 struct WallMesh {
+  std::string id; ///< of its fix
   std::filesystem::path file;
   double scale = 1;
   Vector move = {0, 0, 0}; ///< [m], after the scale

@@ -7,7 +7,9 @@
 
 namespace eccentra::report {
 
-/// HTML with the table and the pictures beds.png and charts.png of `folder`, where they exist, inside the text.
-std::string html_page(const std::vector<Summary>& summaries, const std::filesystem::path& folder);
+/// HTML with the table, the numbers that the cases were computed with, and the pictures of `folder`, where they exist,
+/// inside the text.
+std::string html_page(const std::vector<Case>& cases, const std::vector<Summary>& summaries,
+                      const std::filesystem::path& folder);
 
 } // namespace eccentra::report

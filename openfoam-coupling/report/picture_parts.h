@@ -9,6 +9,7 @@
 #include <vtkAlgorithmOutput.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkRenderer.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <functional>
 #include <string>

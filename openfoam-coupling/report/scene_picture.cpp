@@ -3,20 +3,22 @@
 // Implements scene_picture.h with VTK.
 #include "report/scene_picture.h"
 
+#include "report/case_parameters.h"
+#include "report/film.h"
+#include "report/flow_fields.h"
 #include "report/picture_file.h"
 #include "report/picture_parts.h"
+#include "report/picture_scales.h"
+#include "report/wall_surfaces.h"
 
 #include <vtkCubeSource.h>
 #include <vtkCutter.h>
 #include <vtkFeatureEdges.h>
-#include <vtkLeaderActor2D.h>
 #include <vtkPlane.h>
 #include <vtkPointData.h>
 #include <vtkProperty.h>
-#include <vtkProperty2D.h>
 #include <vtkRegularPolygonSource.h>
 #include <vtkRenderWindow.h>
-#include <vtkSTLReader.h>
 #include <vtkTransform.h>
 #include <vtkTransformPolyDataFilter.h>
 
@@ -32,7 +34,6 @@ namespace {
 
 constexpr double kPixels = 720;   // of the larger side of a column
 constexpr double kSmallest = 300; // pixels of the smaller side
-constexpr double kCaption = 100;  // pixels under a column: scale bar and gravity
 constexpr double kMargin = 1.06;  // around what is drawn
 constexpr double kTilt = 0.12;    // [rad]: a scene without a fluid is seen from a little above
 constexpr double kSlowest = 1e-2; // [m/s], of a scale of colour
@@ -113,25 +114,6 @@ std::array<double, 6> bounds_of_bodies(vtkPolyData& bodies) {
   return sides;
 }
 
-vtkSmartPointer<vtkPolyData> read_mesh(const Case& data, const WallMesh& mesh) {
-  const std::filesystem::path file = mesh.file.is_absolute() ? mesh.file : data.folder / mesh.file;
-  if (!std::filesystem::is_regular_file(file))
-    throw std::runtime_error(file.string() +
-                             ": cannot be read: log.liggghts names it as the mesh of a wall; keep it in "
-                             "the case's folder");
-  const auto reader = vtkSmartPointer<vtkSTLReader>::New();
-  reader->SetFileName(file.c_str());
-  const auto transform = vtkSmartPointer<vtkTransform>::New();
-  transform->PostMultiply();
-  transform->Scale(mesh.scale, mesh.scale, mesh.scale);
-  transform->Translate(mesh.move.data());
-  const auto moved = vtkSmartPointer<vtkTransformPolyDataFilter>::New();
-  moved->SetTransform(transform);
-  moved->SetInputConnection(reader->GetOutputPort());
-  moved->Update();
-  return moved->GetOutput();
-}
-
 /// Walls enlarge the bounds of the bodies; a cylinder does so across its axis.
 void add_walls_to(Bounds& bounds, const Case& data, const std::vector<vtkSmartPointer<vtkPolyData>>& meshes) {
   const Bounds bodies = bounds;
@@ -202,7 +184,7 @@ Column column_of(const View& view) {
   const double time = time_of(data, data.spheres.at(view.file));
   column.flow = read_flow(data.folder, data.dem.time_step > 0 ? std::max(0.0, time) : -1);
   for (const WallMesh& mesh : data.dem.meshes)
-    column.meshes.push_back(read_mesh(data, mesh));
+    column.meshes.push_back(mesh_of_wall(data, mesh));
   column.bounds.add(bounds_of_bodies(*column.bodies));
   add_walls_to(column.bounds, data, column.meshes);
   if (column.flow != nullptr) {
@@ -283,50 +265,6 @@ void add_mesh(vtkRenderer& renderer, vtkPolyData* mesh) {
   add_outline(renderer, edges->GetOutputPort());
 }
 
-/// 1, 2 or 5 times a power of ten: the longest one up to `limit`.
-double round_length(double limit) {
-  const double digit = std::pow(10.0, std::floor(std::log10(limit)));
-  constexpr double one_digit = 1 + 1e-9;
-  for (const double step : {5.0, 2.0})
-    if (step * digit <= limit * one_digit)
-      return step * digit;
-  return digit;
-}
-
-void add_leader(vtkRenderer& renderer, double x0, double y0, double x1, double y1, bool arrow) {
-  const auto leader = vtkSmartPointer<vtkLeaderActor2D>::New();
-  leader->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-  leader->GetPosition2Coordinate()->SetCoordinateSystemToNormalizedViewport();
-  leader->GetPosition2Coordinate()->SetReferenceCoordinate(nullptr);
-  leader->SetPosition(x0, y0);
-  leader->SetPosition2(x1, y1);
-  if (arrow)
-    leader->SetArrowPlacementToPoint2();
-  else
-    leader->SetArrowPlacementToNone();
-  leader->SetArrowStyleToFilled();
-  leader->GetProperty()->SetColor(0, 0, 0);
-  leader->GetProperty()->SetLineWidth(4);
-  renderer.AddViewProp(leader);
-}
-
-/// A bar of a round length, and gravity where the script has it; `pixels` of the viewport's width.
-void add_scales(vtkRenderer& renderer, const Column& column, double pixels_per_metre, double pixels) {
-  constexpr double share = 0.4;
-  const double length = round_length(share * pixels / pixels_per_metre);
-  const double part = length * pixels_per_metre / pixels;
-  constexpr double left = 0.08, height = 0.72;
-  add_leader(renderer, left, height, left + part, height, false);
-  add_text(renderer, length < 1 ? fmt::format("{:.3g} mm", 1e3 * length) : fmt::format("{:.3g} m", length), kTextSize,
-           left + part / 2, 0.36);
-  const Vector& g = column.view->data->dem.gravity;
-  if (!(dot(g, g) > 0))
-    return;
-  constexpr double right = 0.9;
-  add_leader(renderer, right, 0.9, right, 0.25, true);
-  add_text(renderer, "g", kTextSize, right - 22 / pixels, 0.6);
-}
-
 void draw_column(vtkRenderer& renderer, const Column& column, const Colours& colours, double half_height) {
   const Vector centre = column.bounds.centre();
   if (column.flow != nullptr)
@@ -342,6 +280,21 @@ void draw_column(vtkRenderer& renderer, const Column& column, const Colours& col
   const Vector from =
       along(along(column.away, -1, column.up, 0), far * std::cos(column.tilt), column.up, far * std::sin(column.tilt));
   look(renderer, centre, from, column.up, half_height);
+}
+
+/// Direction of the mean velocity of the fluid, as it is seen; zero if it goes along the sight or is none.
+std::array<double, 2> flow_in_picture(const Column& column) {
+  if (column.flow == nullptr)
+    return {0, 0};
+  vtkDataArray& U = *column.flow->GetPointData()->GetArray("U");
+  Vector mean = {0, 0, 0};
+  for (vtkIdType i = 0; i < U.GetNumberOfTuples(); ++i)
+    for (std::size_t d = 0; d < 3; ++d)
+      mean[d] += U.GetComponent(i, static_cast<int>(d)) / static_cast<double>(U.GetNumberOfTuples());
+  const double right = dot(mean, column.right), up = dot(mean, column.up);
+  constexpr double across = 0.3; // of the whole: less is not a direction of the picture
+  return std::hypot(right, up) > across * std::sqrt(dot(mean, mean)) ? std::array<double, 2>{right, up}
+                                                                     : std::array<double, 2>{0, 0};
 }
 
 /// Speeds that set the scales of colour.
@@ -368,6 +321,79 @@ std::string caption_of(const Case& data, const ParticleFile& file) {
   return !(data.dem.time_step > 0) ? fmt::format("step {}", file.step) : fmt::format("t = {:.3g} s", time);
 }
 
+/// Pictures of one case have one scale.
+void share_bounds(std::vector<Column>& columns) {
+  for (Column& column : columns)
+    for (const Column& other : columns)
+      if (&other != &column && other.view->data == column.view->data)
+        column.bounds.add(other.bounds.sides);
+  for (Column& column : columns)
+    choose_sight(column);
+}
+
+/// The columns beside each other.
+void draw_columns(const std::vector<Column>& columns, const Colours& colours, const std::filesystem::path& file) {
+  double height = kSmallest;
+  std::vector<double> scales; // pixels per metre
+  for (const Column& column : columns) {
+    scales.push_back(kPixels / (2 * std::max(column.half_width, column.half_height)));
+    height = std::max(height, 2 * column.half_height * scales.back());
+  }
+  double width = 0;
+  std::vector<double> widths;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    widths.push_back(std::max(kSmallest, 2 * columns[i].half_width * scales[i]));
+    width += widths.back();
+  }
+  bool fluid = false;
+  for (const Column& column : columns)
+    fluid = fluid || column.flow != nullptr;
+  const double least_width = fluid ? 1000 : 640; // room for the numbers of the scales of colour
+  const double stretch = std::max(1.0, least_width / width);
+  for (double& w : widths)
+    w *= stretch;
+  width *= stretch;
+  const double bottom = kLegendPixels + kScalePixels;
+  std::vector<std::vector<std::string>> lines;
+  std::size_t most_lines = 0;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const View& view = *columns[i].view;
+    const bool said = i > 0 && columns[i - 1].view->data == view.data; // once for several pictures of a case
+    lines.push_back(said ? std::vector<std::string>{} : wrapped(caption_of_parameters(*view.data), widths[i]));
+    most_lines = std::max(most_lines, lines.back().size());
+  }
+  const double titles = title_pixels(most_lines);
+  const double total = bottom + height + titles;
+
+  const auto window = vtkSmartPointer<vtkRenderWindow>::New();
+  window->SetOffScreenRendering(1);
+  window->SetSize(static_cast<int>(width), static_cast<int>(total));
+  window->SetMultiSamples(8);
+  const auto viewport = [&](double x0, double x1, double y0, double y1) {
+    const auto renderer = vtkSmartPointer<vtkRenderer>::New();
+    renderer->SetBackground(1, 1, 1);
+    renderer->SetViewport(x0 / width, y0 / total, x1 / width, y1 / total);
+    window->AddRenderer(renderer);
+    return renderer;
+  };
+  double left = 0;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const double right = left + widths[i];
+    draw_column(*viewport(left, right, bottom, bottom + height), columns[i], colours, height / 2 / scales[i]);
+    const Vector& g = columns[i].view->data->dem.gravity;
+    add_scales(*viewport(left, right, kLegendPixels, bottom),
+               {widths[i], scales[i], dot(g, g) > 0, flow_in_picture(columns[i])});
+    add_title(*viewport(left, right, bottom + height, total), columns[i].view->caption, lines[i], titles);
+    left = right;
+  }
+  const auto legend = viewport(0, width, 0, kLegendPixels);
+  add_bar(*legend, colours.bodies, "speed of the bodies [m/s]", fluid ? 0.08 : 0.18, fluid ? 0.36 : 0.64);
+  if (fluid)
+    add_bar(*legend, colours.fluid, "speed of the fluid [m/s]", 0.56, 0.36);
+  window->Render();
+  write_png(*window, file);
+}
+
 } // namespace
 
 double time_of(const Case& data, const ParticleFile& file) {
@@ -379,13 +405,17 @@ double time_of(const Case& data, const ParticleFile& file) {
   return static_cast<double>(file.step) * data.dem.time_step;
 }
 
+std::string title_of(const Case& data) {
+  return data.spheres.empty() ? data.name : data.name + ", " + caption_of(data, data.spheres.back());
+}
+
 std::vector<View> last_views(const std::vector<Case>& cases) {
   std::vector<View> views;
   for (const Case& data : cases) {
     if (data.spheres.empty())
       throw std::runtime_error(data.folder.string() + ": no files of particles: dump cluster/vtk or custom/vtk to "
                                                       "postProcessing/eccentra/grains_*.vtp or particles_*.vtk");
-    views.push_back({&data, data.spheres.size() - 1, data.name + ", " + caption_of(data, data.spheres.back())});
+    views.push_back({&data, data.spheres.size() - 1, title_of(data)});
   }
   return views;
 }
@@ -413,62 +443,33 @@ void draw_views(const std::vector<View>& views, const std::filesystem::path& fil
   std::vector<Column> columns;
   for (const View& view : views)
     columns.push_back(column_of(view));
-  for (Column& column : columns) // pictures of one case have one scale
-    for (const Column& other : columns)
-      if (&other != &column && other.view->data == column.view->data)
-        column.bounds.add(other.bounds.sides);
-  for (Column& column : columns)
+  share_bounds(columns);
+  draw_columns(columns, colours_of(columns), file);
+}
+
+void draw_film(const std::vector<View>& views, const std::filesystem::path& file) {
+  // A few of the pictures stand for all when scales are chosen: all at once would not fit into the memory.
+  constexpr std::size_t samples = 8;
+  std::vector<Column> sampled;
+  for (std::size_t k = 0; k < std::min(samples, views.size()); ++k)
+    sampled.push_back(
+        column_of(views[k * (views.size() - 1) / std::max<std::size_t>(1, std::min(samples, views.size()) - 1)]));
+  share_bounds(sampled);
+  const Colours colours = colours_of(sampled);
+  const Bounds bounds = sampled.front().bounds;
+  sampled.clear();
+  std::vector<std::filesystem::path> pictures;
+  for (const View& view : views) {
+    Column column = column_of(view);
+    column.bounds = bounds;
     choose_sight(column);
-  const Colours colours = colours_of(columns);
-
-  double height = kSmallest;
-  std::vector<double> scales; // pixels per metre
-  for (const Column& column : columns) {
-    scales.push_back(kPixels / (2 * std::max(column.half_width, column.half_height)));
-    height = std::max(height, 2 * column.half_height * scales.back());
+    pictures.push_back(file.string() + "." + std::to_string(pictures.size()));
+    draw_columns({column}, colours, pictures.back());
   }
-  double width = 0;
-  std::vector<double> widths;
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    widths.push_back(std::max(kSmallest, 2 * columns[i].half_width * scales[i]));
-    width += widths.back();
-  }
-  bool fluid = false;
-  for (const Column& column : columns)
-    fluid = fluid || column.flow != nullptr;
-  const double least_width = fluid ? 1000 : 640; // room for the numbers of the scales of colour
-  const double stretch = std::max(1.0, least_width / width);
-  for (double& w : widths)
-    w *= stretch;
-  width *= stretch;
-  const double bottom = kLegendPixels + kCaption;
-  const double total = bottom + height + kTitlePixels;
-
-  const auto window = vtkSmartPointer<vtkRenderWindow>::New();
-  window->SetOffScreenRendering(1);
-  window->SetSize(static_cast<int>(width), static_cast<int>(total));
-  window->SetMultiSamples(8);
-  const auto viewport = [&](double x0, double x1, double y0, double y1) {
-    const auto renderer = vtkSmartPointer<vtkRenderer>::New();
-    renderer->SetBackground(1, 1, 1);
-    renderer->SetViewport(x0 / width, y0 / total, x1 / width, y1 / total);
-    window->AddRenderer(renderer);
-    return renderer;
-  };
-  double left = 0;
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const double right = left + widths[i];
-    draw_column(*viewport(left, right, bottom, bottom + height), columns[i], colours, height / 2 / scales[i]);
-    add_scales(*viewport(left, right, kLegendPixels, bottom), columns[i], scales[i], widths[i]);
-    add_text(*viewport(left, right, bottom + height, total), columns[i].view->caption, kTextSize + 4, 0.5, 0.4);
-    left = right;
-  }
-  const auto legend = viewport(0, width, 0, kLegendPixels);
-  add_bar(*legend, colours.bodies, "speed of the bodies [m/s]", fluid ? 0.08 : 0.18, fluid ? 0.36 : 0.64);
-  if (fluid)
-    add_bar(*legend, colours.fluid, "speed of the fluid [m/s]", 0.56, 0.36);
-  window->Render();
-  write_png(*window, file);
+  constexpr double tenth = 0.1;
+  write_film(pictures, tenth, file);
+  for (const std::filesystem::path& picture : pictures)
+    std::filesystem::remove(picture);
 }
 
 } // namespace eccentra::report

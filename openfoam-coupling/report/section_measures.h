@@ -25,6 +25,8 @@ struct Snapshot {
   double time = 0;
   std::vector<Vector> position, velocity;
   std::vector<double> volume;
+  std::vector<double> radius = {}; ///< of the bounding spheres; empty if unknown
+  std::vector<int> type = {};      ///< empty if unknown
 };
 
 /// Solid volume fraction in layers of equal thickness across the hole, from the low side (layer 0) to the high side.

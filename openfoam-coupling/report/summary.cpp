@@ -67,10 +67,11 @@ void add_bodies(Summary& summary, const Case& data, double share) {
   std::vector<double> centre;
   std::vector<double> top;
   std::vector<double> speed;
+  std::vector<Snapshot> snapshots;
   for (const ParticleFile& file : data.bodies) {
     if (static_cast<double>(file.step) < (1 - share) * static_cast<double>(data.bodies.back().step))
       continue;
-    const Snapshot snapshot = read_snapshot(file);
+    const Snapshot& snapshot = snapshots.emplace_back(read_snapshot(file));
     const SolidState state = solid_state(snapshot, up);
     count.push_back(static_cast<double>(snapshot.position.size()));
     solid.push_back(state.volume);
@@ -82,6 +83,7 @@ void add_bodies(Summary& summary, const Case& data, double share) {
   }
   if (count.empty())
     return;
+  summary.classes = body_classes(snapshots, up, {0, 0, 1});
   if (!counted)
     summary.quantities.push_back({"bodies", "", mean_of(count), 1});
   summary.quantities.push_back({"solid volume", "cm3", mean_of(solid), 1e6});
@@ -166,23 +168,26 @@ Summary summarise(const Case& data, double share, std::size_t layers) {
   std::vector<double> height;
   std::vector<double> rest;
   summary.profile.assign(data.is_annulus ? layers : 0, 0.0);
-  std::size_t snapshots = 0;
+  std::vector<Snapshot> snapshots;
   const long last_step = data.bodies.empty() ? 0 : data.bodies.back().step;
   for (const ParticleFile& file : data.bodies) {
     if (!data.is_annulus || static_cast<double>(file.step) < (1 - share) * static_cast<double>(last_step))
       continue;
-    const Snapshot snapshot = read_snapshot(file);
+    const Snapshot& snapshot = snapshots.emplace_back(read_snapshot(file));
     const auto profile = concentration_profile(data.section, snapshot, high_side(), layers);
     for (std::size_t k = 0; k < layers; ++k)
       summary.profile[k] += profile[k];
     height.push_back(bed_height(profile, 2 * data.section.hole_radius));
     constexpr double slow = 0.01; // m/s
     rest.push_back(share_at_rest(snapshot, slow));
-    ++snapshots;
   }
   for (double& c : summary.profile)
-    c /= std::max<double>(1, static_cast<double>(snapshots));
-  if (snapshots > 0) {
+    c /= std::max<double>(1, static_cast<double>(snapshots.size()));
+  if (!snapshots.empty()) {
+    const auto up = high_side();
+    summary.classes = body_classes(snapshots, {up[0], up[1], 0}, {0, 0, 1});
+    for (BodyClass& one : summary.classes) // heights above the lowest point of the hole
+      one.height += data.section.hole_radius;
     summary.quantities.push_back({"bed height (profile)", "mm", mean_of(height), 1000});
     summary.quantities.push_back({"solid slower than 10 mm/s", "%", mean_of(rest), 100});
   }
@@ -248,6 +253,32 @@ std::string to_csv(const std::vector<Summary>& summaries) {
     for (const auto& [part, seconds] : s.seconds)
       text += fmt::format("{},seconds in {},s,{:.4g},0,0,{:.6g}\n", s.name, part, seconds, s.until);
   }
+  return text;
+}
+
+std::string classes_text(const std::vector<Summary>& summaries) {
+  std::string text;
+  for (const Summary& s : summaries) {
+    if (s.classes.size() < 2)
+      continue;
+    text += fmt::format("\nclasses of {}\n{:>5}{:>9}{:>14}{:>9}{:>11}{:>13}{:>13}{:>15}{:>11}\n", s.name, "type",
+                        "slimness", "diameter [mm]", "bodies", "volume [%]", "height [mm]", "speed [m/s]",
+                        "along z [m/s]", "slow [%]");
+    for (const BodyClass& one : s.classes)
+      text += fmt::format("{:>5}{:>9.3f}{:>14.4g}{:>9.4g}{:>11.3g}{:>13.4g}{:>13.4g}{:>15.4g}{:>11.3g}\n", one.type,
+                          one.slimness, 1e3 * one.diameter, one.count, 100 * one.part, 1e3 * one.height, one.speed,
+                          one.along, 100 * one.slow);
+  }
+  return text;
+}
+
+std::string classes_csv(const std::vector<Summary>& summaries) {
+  std::string text = "case,type,slimness,diameter_m,bodies,part_of_volume,height_m,speed_m_per_s,velocity_z_m_per_s,"
+                     "part_slower_than_10_mm_per_s\n";
+  for (const Summary& s : summaries)
+    for (const BodyClass& one : s.classes)
+      text += fmt::format("{},{},{:.5g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", s.name, one.type,
+                          one.slimness, one.diameter, one.count, one.part, one.height, one.speed, one.along, one.slow);
   return text;
 }
 

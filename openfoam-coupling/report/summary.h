@@ -3,6 +3,7 @@
 // The numbers of a case: means over the last part of the run, profile over the height, cost by part.
 #pragma once
 
+#include "report/body_classes.h"
 #include "report/case_data.h"
 
 #include <string>
@@ -35,6 +36,7 @@ struct Summary {
   std::vector<Quantity> quantities;
   std::vector<double> profile;                         ///< solid fraction per layer, low side first; of an annulus
   std::vector<std::pair<std::string, double>> seconds; ///< wall-clock seconds by part
+  std::vector<BodyClass> classes;                      ///< of its bodies
 };
 
 /// Unit vector towards the high side; towards +y (away from the pipe) in a vertical hole, which has no high side.
@@ -46,6 +48,9 @@ Summary summarise(const Case& data, double share, std::size_t layers);
 /// Cases side by side, one quantity a line.
 std::string to_text(const std::vector<Summary>& summaries);
 std::string to_csv(const std::vector<Summary>& summaries);
+/// A table of the classes of each case that has more than one; empty if none has.
+std::string classes_text(const std::vector<Summary>& summaries);
+std::string classes_csv(const std::vector<Summary>& summaries);
 std::string profile_csv(const std::vector<Summary>& summaries);
 
 } // namespace eccentra::report

@@ -5,6 +5,7 @@
 #include "report/bed_picture.h"
 #include "report/charts.h"
 #include "report/html_page.h"
+#include "report/paraview_files.h"
 #include "report/scene_picture.h"
 #include "report/summary.h"
 #include "shape/vtk/virtual_display.h"
@@ -44,15 +45,21 @@ int run(int argc, char** argv) {
   std::size_t layers = 40;
   bool pictures = true;
   bool html = false;
+  bool paraview = false;
   std::size_t frames = 0;
+  std::size_t film = 0;
   app.add_option("CASE", folders, "case folders")->required();
   app.add_option("-o,--output", out, "folder for what is written (default: CASE/report of the first case)");
   app.add_option("--share", share, "the last part of the run that means are taken over (default 0.5)");
   app.add_option("--layers", layers, "layers of the concentration profile (default 40)")->check(CLI::Range(2, 1000));
   app.add_flag("!--no-pictures", pictures, "table and CSV alone");
   app.add_flag("--html", html, "also report.html: one page that needs no other file");
+  app.add_flag("--paraview", paraview, "also NAME.pvd of each case: bodies, walls and fields for ParaView, in seconds");
   app.add_option("--frames", frames, "a strip of so many pictures from the start to the end of the first case")
       ->check(CLI::Range(1, 100));
+  app.add_option("--film", film,
+                 "film.png of so many pictures of the first case, one each tenth of a second (animated)")
+      ->check(CLI::Range(2, 2000));
   app.set_version_flag("--version", ECCENTRA_REPORT_VERSION);
   try {
     app.parse(argc, argv);
@@ -73,10 +80,13 @@ int run(int argc, char** argv) {
   fs::create_directories(folder, failed);
   if (failed)
     throw std::runtime_error(folder.string() + ": cannot be made: " + failed.message());
-  const std::string table = to_text(summaries);
+  const std::string classes = classes_text(summaries);
+  const std::string table = to_text(summaries) + classes;
   std::fputs(table.c_str(), stdout);
   write(folder / "summary.txt", table);
   write(folder / "summary.csv", to_csv(summaries));
+  if (!classes.empty())
+    write(folder / "classes.csv", classes_csv(summaries));
   if (std::any_of(cases.begin(), cases.end(), [](const Case& c) { return c.is_annulus; }))
     write(folder / "profile.csv", profile_csv(summaries));
   for (const Case& c : cases)
@@ -88,16 +98,21 @@ int run(int argc, char** argv) {
     vtkObject::GlobalWarningDisplayOff();
     const bool annuli = std::all_of(cases.begin(), cases.end(), [](const Case& c) { return c.is_annulus; });
     if (std::any_of(cases.begin(), cases.end(), [](const Case& c) { return c.run.rows() > 0; }))
-      draw_charts(cases, summaries, folder / "charts.png");
+      draw_charts(cases, summaries, folder);
     if (annuli)
       draw_beds(cases, folder / "beds.png");
     else
       draw_views(last_views(cases), folder / "scene.png");
     if (frames > 0)
       draw_views(strip(cases.front(), frames), folder / "strip.png");
+    if (film > 0)
+      draw_film(strip(cases.front(), film), folder / "film.png");
   }
+  if (paraview)
+    for (const Case& c : cases)
+      std::printf("for ParaView: %s\n", write_paraview(c, folder).c_str());
   if (html)
-    write(folder / "report.html", html_page(summaries, folder));
+    write(folder / "report.html", html_page(cases, summaries, folder));
   std::printf("written: %s\n", folder.c_str());
   return 0;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // annulusReport as a program, on a case folder whose numbers are known.
-#include "report/case_data.h"
+#include "report/flow_fields.h"
 #include "report/summary.h"
 #include "support/read_file.h"
 #include "support/run_program.h"
@@ -13,6 +13,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <regex>
@@ -104,6 +105,9 @@ TEST(Report, SaysWhatTheCaseHolds) {
   EXPECT_EQ(values["seconds in DEM"], "2");
   EXPECT_GT(colours(folder / "report/beds.png"), 20);
   EXPECT_GT(colours(folder / "report/charts.png"), 20);
+  const std::string vectors = contents(folder / "report/charts.svg");
+  EXPECT_NE(vectors.find("<svg"), std::string::npos);
+  EXPECT_GT(std::count(vectors.begin(), vectors.end(), '\n'), 50) << "lines of curves and axes";
   std::ifstream page(folder / "report/report.html");
   const std::string html{std::istreambuf_iterator<char>(page), {}};
   EXPECT_NE(html.find("data:image/png;base64,"), std::string::npos);
@@ -118,10 +122,10 @@ TEST(Report, DrawsARunOfLiggghtsAlone) {
   fs::copy(folder / "postProcessing/eccentra/particles_100.vtk", folder / "postProcessing/eccentra/particles_200.vtk");
   write_file(folder / "log.liggghts",
              "Created orthogonal box = (-0.1 -0.1 -0.1) to (0.1 0.1 0.4)\ntimestep 1e-3\n"
-             "fix weight all gravity 9.81 vector 0 0 -1\n"
+             "variable shape index \"cube 8\"\nfix weight all gravity 9.81 vector 0 0 -1\n"
              "fix floor all wall/gran/cluster model hertz primitive type 1 zplane 0\n"
              "fix tube all wall/gran/cluster model hertz primitive type 1 zcylinder 0.06 0 0\n");
-  const ProgramResult run = report({folder, "--frames", "2", "--html"});
+  const ProgramResult run = report({folder, "--frames", "2", "--film", "2", "--html"});
   ASSERT_EQ(run.status, 0) << run.output;
   EXPECT_NE(run.output.find("0.10..0.20"), std::string::npos) << run.output;
   // Ten centres, from 0.01 m on every 0.03 m, at speeds from 0 to 0.9 m/s.
@@ -132,6 +136,13 @@ TEST(Report, DrawsARunOfLiggghtsAlone) {
   EXPECT_NE(table.find("alone,mean speed of the solid,m/s,0.45,"), std::string::npos) << table;
   EXPECT_GT(colours(folder / "report/scene.png"), 20);
   EXPECT_GT(colours(folder / "report/strip.png"), 20);
+  // A film: two pictures of one size, of which other programs see the first.
+  const std::string film = contents(folder / "report/film.png");
+  EXPECT_NE(film.find(std::string("acTL\0\0\0\2", 8)), std::string::npos);
+  EXPECT_NE(film.find("fdAT"), std::string::npos);
+  EXPECT_GT(colours(folder / "report/film.png"), 20);
+  EXPECT_FALSE(fs::exists(folder / "report/film.png.0"));
+  EXPECT_NE(contents(folder / "report/report.html").find("<td>shape</td><td>cube 8</td>"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "report/beds.png"));
   EXPECT_FALSE(fs::exists(folder / "report/charts.png"));
   EXPECT_NE(contents(folder / "report/report.html").find("data:image/png;base64,"), std::string::npos);
@@ -195,6 +206,13 @@ TEST(Report, ReadsTheFlowWholeAndInParts) {
   expect_flow(folder, "put together");
   fs::remove_all(folder / "processor0");
   expect_flow(folder, "whole");
+  const ProgramResult files = report({folder, "--no-pictures", "--paraview"});
+  ASSERT_EQ(files.status, 0) << files.output;
+  const auto fluid = eccentra::report::read_all_fields(folder, 0.5);
+  ASSERT_NE(fluid, nullptr);
+  EXPECT_EQ(fluid->GetNumberOfCells(), kTestMeshCells);
+  EXPECT_NE(contents(folder / "report/flow/100.vtm").find("name=\"fluid\" file=\"fluid_0.5.vtu\""), std::string::npos);
+  EXPECT_TRUE(fs::is_regular_file(folder / "report/flow/fluid_0.5.vtu"));
 }
 #endif
 

@@ -84,6 +84,54 @@ vtkSmartPointer<vtkPolyData> surface_of_hull(const RoundedHull& hull, const Eige
 
 } // namespace
 
+vtkSmartPointer<vtkPolyData> free_part(const std::vector<Sphere>& spheres, std::size_t index, int fineness,
+                                       double margin) {
+  const Sphere& self = spheres.at(index);
+  std::vector<Sphere> neighbours;
+  for (const Sphere& other : spheres)
+    if (&other != &self && (other.centre - self.centre).norm() < other.radius + self.radius)
+      neighbours.push_back(other);
+  vtkNew<vtkSphereSource> source;
+  source->SetRadius(1);
+  source->SetThetaResolution(fineness);
+  source->SetPhiResolution(fineness / 2 + 1);
+  source->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  source->Update();
+  vtkNew<vtkPolyData> mesh;
+  mesh->DeepCopy(source->GetOutput());
+  vtkNew<vtkDoubleArray> clearance; // from the nearest other sphere: negative where covered
+  for (vtkIdType k = 0; k < mesh->GetNumberOfPoints(); ++k) {
+    Eigen::Vector3d n;
+    mesh->GetPoint(k, n.data());
+    const Eigen::Vector3d point = self.centre + self.radius * n;
+    double nearest = std::numeric_limits<double>::max();
+    for (const Sphere& other : neighbours)
+      nearest = std::min(nearest, (point - other.centre).norm() - other.radius);
+    clearance->InsertNextValue(nearest);
+    mesh->GetPoints()->SetPoint(k, point.data());
+  }
+  clearance->SetName("clearance");
+  mesh->GetPointData()->SetScalars(clearance);
+  vtkNew<vtkClipPolyData> clip;
+  clip->SetInputData(mesh);
+  clip->SetValue(-margin * self.radius);
+  clip->Update();
+  auto free = vtkSmartPointer<vtkPolyData>::New();
+  free->DeepCopy(clip->GetOutput());
+  vtkNew<vtkFloatArray> normal;
+  normal->SetName("Normals");
+  normal->SetNumberOfComponents(3);
+  for (vtkIdType k = 0; k < free->GetNumberOfPoints(); ++k) {
+    Eigen::Vector3d point;
+    free->GetPoint(k, point.data());
+    const Eigen::Vector3d n = (point - self.centre).normalized();
+    normal->InsertNextTuple3(n.x(), n.y(), n.z());
+  }
+  free->GetPointData()->Initialize();
+  free->GetPointData()->SetNormals(normal);
+  return free;
+}
+
 vtkSmartPointer<vtkPolyData> union_surface(const ClusterShape& shape, const Eigen::Vector3d& offset, int fineness,
                                            double margin) {
   if (shape.hull())
@@ -92,53 +140,18 @@ vtkSmartPointer<vtkPolyData> union_surface(const ClusterShape& shape, const Eige
   vtkNew<vtkAppendPolyData> whole;
   for (const int index : shape.surface_spheres()) {
     const Sphere& self = shape.spheres()[index];
-    std::vector<Sphere> neighbours;
-    for (const Sphere& other : shape.spheres())
-      if (&other != &self && (other.centre - self.centre).norm() < other.radius + self.radius)
-        neighbours.push_back(other);
-    vtkNew<vtkSphereSource> source;
-    source->SetRadius(1);
-    source->SetThetaResolution(fineness);
-    source->SetPhiResolution(fineness / 2 + 1);
-    source->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-    source->Update();
-    vtkNew<vtkPolyData> mesh;
-    mesh->DeepCopy(source->GetOutput());
-    vtkNew<vtkDoubleArray> clearance; // from the nearest other sphere: negative where covered
-    for (vtkIdType k = 0; k < mesh->GetNumberOfPoints(); ++k) {
-      Eigen::Vector3d n;
-      mesh->GetPoint(k, n.data());
-      const Eigen::Vector3d point = self.centre + self.radius * n;
-      double nearest = std::numeric_limits<double>::max();
-      for (const Sphere& other : neighbours)
-        nearest = std::min(nearest, (point - other.centre).norm() - other.radius);
-      clearance->InsertNextValue(nearest);
-      mesh->GetPoints()->SetPoint(k, point.data());
-    }
-    clearance->SetName("clearance");
-    mesh->GetPointData()->SetScalars(clearance);
-    vtkNew<vtkClipPolyData> clip;
-    clip->SetInputData(mesh);
-    clip->SetValue(-margin * self.radius);
-    clip->Update();
-    vtkNew<vtkPolyData> free;
-    free->DeepCopy(clip->GetOutput());
-    vtkNew<vtkFloatArray> normal, eccentricity, number;
-    normal->SetName("Normals");
-    normal->SetNumberOfComponents(3);
+    const vtkSmartPointer<vtkPolyData> free = free_part(shape.spheres(), index, fineness, margin);
+    vtkNew<vtkFloatArray> eccentricity, number;
     eccentricity->SetName(eccentricity_array);
     number->SetName(sphere_array);
     for (vtkIdType k = 0; k < free->GetNumberOfPoints(); ++k) {
       Eigen::Vector3d point;
       free->GetPoint(k, point.data());
       const Eigen::Vector3d n = (point - self.centre).normalized(), moved = point + offset;
-      normal->InsertNextTuple3(n.x(), n.y(), n.z());
       eccentricity->InsertNextValue(static_cast<float>(self.centre.cross(n).norm() / unit));
       number->InsertNextValue(static_cast<float>(index));
       free->GetPoints()->SetPoint(k, moved.data());
     }
-    free->GetPointData()->Initialize();
-    free->GetPointData()->SetNormals(normal);
     free->GetPointData()->AddArray(number);
     free->GetPointData()->SetScalars(eccentricity);
     whole->AddInputData(free);
