@@ -30,17 +30,22 @@ make_root() {
     say "making a bare $1 in $2"
     mkdir -p "$2"
     debootstrap --variant=minbase --include=ca-certificates "$1" "$2" "$archive" >"$4" 2>&1 || fail "debootstrap failed ($(tail -n 1 "$4")); the log is $4"
+    # The root is thrown away, not kept over a loss of power.
+    echo force-unsafe-io >"$2/etc/dpkg/dpkg.cfg.d/unsafe-io"
     touch "$2/.complete"
   fi
   cp /etc/resolv.conf /etc/hosts "$2/etc/" 2>/dev/null || :
 }
 
-# in_root FOLDER COMMAND: runs COMMAND there by bash. Mounts and processes end with it. Only the words of mpirun's root rights and the number of jobs go in.
+# in_root FOLDER COMMAND [CACHE]: runs COMMAND there by bash. Mounts and processes end with it. Only the words of mpirun's root rights and the number of
+# jobs go in; with CACHE, compilers are called through the ccache of the root, which keeps its results in that folder.
 in_root() {
   # shellcheck disable=SC2016 # the inner shell replaces them
   unshare --mount --pid --fork bash -c '
     mount --make-rprivate / && mount -t proc proc "$1/proc" && mount --rbind /dev "$1/dev" && mount -t sysfs sysfs "$1/sys" || exit 1
+    if [ -n "$4" ]; then mkdir -p "$4" "$1/var/cache/ccache" && mount --bind "$4" "$1/var/cache/ccache" || exit 1; fi
     exec chroot "$1" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root TERM=dumb \
-      OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 ${3:+ECCENTRA_JOBS=$3} bash -c "$2"' \
-    - "$1" "$2" "${ECCENTRA_JOBS:-}" </dev/null
+      OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 ${3:+ECCENTRA_JOBS=$3 CMAKE_BUILD_PARALLEL_LEVEL=$3} \
+      ${4:+CCACHE_DIR=/var/cache/ccache CCACHE_SLOPPINESS=pch_defines,time_macros CMAKE_CXX_COMPILER_LAUNCHER=ccache} bash -c "$2"' \
+    - "$1" "$2" "${ECCENTRA_JOBS:-}" "${3:-}" </dev/null
 }
