@@ -168,10 +168,12 @@ void Output::add_dump(int narg, char** arg) {
   }
   if (narg < 5)
     error->all(FLERR, ("dump " + ours->name + " needs: dump ID group " + ours->name + " every file").c_str());
-  std::string style = "atom/vtk";
+  std::string style = "custom"; // a LIGGGHTS without VTK has it, too
+  std::string column = "id";
   std::vector<char*> stock_arg(arg, arg + 5);
   stock_arg[2] = style.data();
-  stock(this, 5, stock_arg.data());
+  stock_arg.push_back(column.data());
+  stock(this, static_cast<int>(stock_arg.size()), stock_arg.data());
   // Ours first: if it refuses its arguments, what is in the list is still whole when LIGGGHTS takes itself down.
   Dump* const our_dump = ours->dump(lmp, narg, arg);
   delete dump[ndump - 1];
