@@ -24,7 +24,7 @@ using Eigen::Vector3d;
 /// Panels on the kept part of the surface by number of mirror planes: each choice costs about 2e9 operations.
 constexpr std::array<std::size_t, 4> kPanels = {600, 450, 375, 300};
 /// Panels nearer than this many times their extents see each other's points.
-constexpr double kNear = 3.0;
+constexpr double kNearField = 3.0;
 /// Values that must be equal by symmetry and differ by more than this are not averaged: the symmetry is not there.
 constexpr double kAlike = 0.02;
 /// A centre of resistance nearer to the centre of mass than this part of d is there.
@@ -70,7 +70,7 @@ Matrix3d interaction(const Panel& i, const Panel& j, const Vector3d& sign, bool 
   if (itself)
     return i.area * seen_from_itself(i);
   const double distance = (i.centre - j.centre.cwiseProduct(sign)).norm();
-  if (distance < kNear * (i.extent + j.extent)) {
+  if (distance < kNearField * (i.extent + j.extent)) {
     const Matrix3d there = i.area * seen_from(middle_of(i), j, sign);
     // The other way round, mirrored: G(S x) = S G(x) S.
     const Matrix3d back = j.area * seen_from(middle_of(j).cwiseProduct(sign), i, Vector3d::Ones());

@@ -61,15 +61,15 @@ void add_prism(const ConvexCore& core, const CoreFace& face, double r, Moments& 
 }
 
 /// What an edge and its two ends share: the arc of its normals on the unit sphere.
-struct Arc {
+struct EdgeArc {
   Vector3d along; ///< unit vector of the edge
   double angle;   ///< [rad]
   Vector3d first; ///< integral of the normal over the angle
   Matrix3d second;
 };
 
-Arc arc_of(const ConvexCore& core, const CoreEdge& edge) {
-  Arc arc;
+EdgeArc arc_of(const ConvexCore& core, const CoreEdge& edge) {
+  EdgeArc arc;
   arc.along = (core.vertices[edge.to] - core.vertices[edge.from]).normalized();
   arc.angle = core.turn(edge);
   const Vector3d n = edge.left < 0 ? arc.along.unitOrthogonal() : core.faces[edge.left].normal;
@@ -81,7 +81,7 @@ Arc arc_of(const ConvexCore& core, const CoreEdge& edge) {
   return arc;
 }
 
-void add_wedge(const ConvexCore& core, const CoreEdge& edge, const Arc& arc, double r, Moments& sum) {
+void add_wedge(const ConvexCore& core, const CoreEdge& edge, const EdgeArc& arc, double r, Moments& sum) {
   const Vector3d &a = core.vertices[edge.from], &b = core.vertices[edge.to];
   const double length = (b - a).norm();
   const Vector3d line = length / 2 * (a + b);
@@ -100,7 +100,7 @@ struct Cone {
   /// Adds an arc whose edge leads away from the vertex along `away`. On the sphere the Laplacian of u is -2 u, and
   /// that of u u^T - I/3 is -6 of it, so that integrals over the region are sums over its boundary, where `away` is
   /// the outward normal.
-  void add(const Arc& arc, const Vector3d& away) {
+  void add(const EdgeArc& arc, const Vector3d& away) {
     first -= arc.angle / 2 * away;
     arcs -= twice_symmetric(arc.first, away) / 6;
   }
@@ -149,7 +149,7 @@ MassProperties rounded_mass(const ConvexCore& given, double radius) {
     }
   }
   for (const CoreEdge& edge : core.edges) {
-    const Arc arc = arc_of(core, edge);
+    const EdgeArc arc = arc_of(core, edge);
     add_wedge(core, edge, arc, radius, sum);
     surface += radius * arc.angle * (core.vertices[edge.to] - core.vertices[edge.from]).norm();
     cones[edge.from].add(arc, arc.along);

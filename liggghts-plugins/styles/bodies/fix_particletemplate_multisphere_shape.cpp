@@ -141,8 +141,8 @@ Fix* create(LAMMPS* lmp, int narg, char** arg) {
   }
 }
 
-const RegisterStyle record({"fix", "particletemplate/multisphere/shape",
-                            "our shapes with exact mass properties for stock fix multisphere", &create});
+const RegisterStyle registered({"fix", "particletemplate/multisphere/shape",
+                                "our shapes with exact mass properties for stock fix multisphere", &create});
 
 } // namespace
 

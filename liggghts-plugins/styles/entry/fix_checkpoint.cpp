@@ -32,8 +32,8 @@ namespace eccentra::styles {
 
 namespace {
 
-const RegisterFix<FixCheckpoint> kRecord("checkpoint/state",
-                                         "added by resumable and fix fluid/couple: what a checkpoint keeps");
+const RegisterFix<FixCheckpoint> registered("checkpoint/state",
+                                            "added by resumable and fix fluid/couple: what a checkpoint keeps");
 
 constexpr const char* kId = "eccentra_checkpoint";
 constexpr int kRelease = 6; ///< place of the release step

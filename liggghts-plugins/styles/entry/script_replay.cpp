@@ -336,7 +336,7 @@ StyleRecord resumable_record() {
   return record;
 }
 
-const RegisterStyle kRecord(resumable_record());
+const RegisterStyle registered(resumable_record());
 
 } // namespace
 

@@ -36,8 +36,8 @@ using namespace LAMMPS_NS;
 namespace eccentra::styles {
 
 namespace {
-const styles::RegisterFix<FixFluidCouple> kRecord("fluid/couple",
-                                                  "exchanges particles and flow with a solver every N steps");
+const styles::RegisterFix<FixFluidCouple> registered("fluid/couple",
+                                                     "exchanges particles and flow with a solver every N steps");
 
 constexpr int kCellHintDoubles = 2;
 /// Entries of the vector of stock fix insert/*.

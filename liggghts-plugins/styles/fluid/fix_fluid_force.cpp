@@ -27,7 +27,8 @@ namespace eccentra::styles {
 namespace {
 
 const styles::RegisterFix<FixFluidForce>
-    kRecord("fluid/force", "drag, lift, pressure, stress and buoyancy forces of a Herschel-Bulkley fluid on particles");
+    registered("fluid/force",
+               "drag, lift, pressure, stress and buoyancy forces of a Herschel-Bulkley fluid on particles");
 
 constexpr const char* kEffectOrder[] = {"drag",           "shear_lift", "rotational_lift", "pressure_gradient",
                                         "viscous_stress", "buoyancy",   "drag_torque",     "strain_torque",

@@ -28,7 +28,8 @@ namespace eccentra::styles {
 
 namespace {
 
-const RegisterFix<FixFluidUniform> kRecord("fluid/uniform", "a prescribed flow for fix fluid/force, no solver needed");
+const RegisterFix<FixFluidUniform> registered("fluid/uniform",
+                                              "a prescribed flow for fix fluid/force, no solver needed");
 
 /// A keyword, the place of its values among all, their number, and what each is without the keyword.
 struct Word {

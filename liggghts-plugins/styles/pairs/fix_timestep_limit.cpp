@@ -34,8 +34,8 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-const RegisterFix<FixTimestepLimit> record("timestep/limit",
-                                           "largest stable time step from contacts, mass and inertia");
+const RegisterFix<FixTimestepLimit> registered("timestep/limit",
+                                               "largest stable time step from contacts, mass and inertia");
 
 // A limit that has moved by less than this is not worth another line in the log.
 constexpr double kReportChange = 0.1;

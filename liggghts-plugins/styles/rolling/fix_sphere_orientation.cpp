@@ -25,8 +25,8 @@ constexpr char kId[] = "eccentra_rolling_orientation";
 constexpr char kProperty[] = "eccentricOrientation";
 constexpr double kUnitDiameter = 2.0; ///< R_eq = 1
 
-const RegisterFix<FixSphereOrientation> registration(kStyle,
-                                                     "orientation of rolling_friction eccentric (made by the model)");
+const RegisterFix<FixSphereOrientation> registered(kStyle,
+                                                   "orientation of rolling_friction eccentric (made by the model)");
 
 Eigen::Quaterniond random_orientation(long seed, int tag) {
   std::seed_seq seeds{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(tag)};

@@ -54,7 +54,7 @@ class ConstantDirectionalTorque : public WallRolling {
   bool torsion_ = false;
 };
 
-const RegisterWallRolling record("cdt", [] { return std::make_unique<ConstantDirectionalTorque>(); });
+const RegisterWallRolling registered("cdt", [] { return std::make_unique<ConstantDirectionalTorque>(); });
 
 } // namespace
 

@@ -50,7 +50,7 @@ class EccentricWallRolling : public styles::WallRolling {
   FixSphereOrientation* spheres_ = nullptr;
 };
 
-const styles::RegisterWallRolling record("eccentric", [] { return std::make_unique<EccentricWallRolling>(); });
+const styles::RegisterWallRolling registered("eccentric", [] { return std::make_unique<EccentricWallRolling>(); });
 
 } // namespace
 } // namespace eccentra::styles

@@ -99,7 +99,7 @@ class ShapeRolling : public WallRolling {
   contact::RollingLimiter* limiter_ = nullptr;
 };
 
-const RegisterWallRolling record("shape", [] { return std::make_unique<ShapeRolling>(); });
+const RegisterWallRolling registered("shape", [] { return std::make_unique<ShapeRolling>(); });
 
 } // namespace
 

@@ -5,8 +5,8 @@
 #include "styles/rolling/register_contact_model.h"
 
 namespace {
-const eccentra::styles::RegisterHertzHistory<LIGGGHTS::ContactModels::ROLLING_ECCENTRIC> registration("eccentric");
+const eccentra::styles::RegisterHertzHistory<LIGGGHTS::ContactModels::ROLLING_ECCENTRIC> registered("eccentric");
 const eccentra::styles::RegisterKeywords
-    arguments("rolling_friction", "eccentric",
-              "eq (32), the torque of a shape at the sphere's orientation: shape cube 64");
+    eccentric_keywords("rolling_friction", "eccentric",
+                       "eq (32), the torque of a shape at the sphere's orientation: shape cube 64");
 } // namespace

@@ -4,5 +4,5 @@
 #include "styles/rolling/register_contact_model.h"
 
 namespace {
-const eccentra::styles::RegisterHertzHistory<LIGGGHTS::ContactModels::ROLLING_EPSD> registration("epsd");
+const eccentra::styles::RegisterHertzHistory<LIGGGHTS::ContactModels::ROLLING_EPSD> registered("epsd");
 } // namespace

@@ -4,5 +4,5 @@
 #include "styles/rolling/register_contact_model.h"
 
 namespace {
-const eccentra::styles::RegisterHertzHistory<LIGGGHTS::ContactModels::ROLLING_EPSD2> registration("epsd2");
+const eccentra::styles::RegisterHertzHistory<LIGGGHTS::ContactModels::ROLLING_EPSD2> registered("epsd2");
 } // namespace

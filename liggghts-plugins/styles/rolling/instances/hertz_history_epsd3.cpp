@@ -4,5 +4,5 @@
 #include "styles/rolling/register_contact_model.h"
 
 namespace {
-const eccentra::styles::RegisterHertzHistory<LIGGGHTS::ContactModels::ROLLING_EPSD3> registration("epsd3");
+const eccentra::styles::RegisterHertzHistory<LIGGGHTS::ContactModels::ROLLING_EPSD3> registered("epsd3");
 } // namespace

@@ -4,5 +4,5 @@
 #include "styles/rolling/register_contact_model.h"
 
 namespace {
-const eccentra::styles::RegisterHertzHistory<LIGGGHTS::ContactModels::ROLLING_LUDING> registration("luding");
+const eccentra::styles::RegisterHertzHistory<LIGGGHTS::ContactModels::ROLLING_LUDING> registered("luding");
 } // namespace

@@ -5,7 +5,7 @@
 #include "styles/rolling/register_contact_model.h"
 
 namespace {
-const eccentra::styles::RegisterHertzHistory<LIGGGHTS::ContactModels::ROLLING_SHAPE> registration("shape");
-const eccentra::styles::RegisterKeywords arguments("rolling_friction", "shape",
-                                                   "eq (19) with mu_r + mu_shape: form limited|directional|epsd");
+const eccentra::styles::RegisterHertzHistory<LIGGGHTS::ContactModels::ROLLING_SHAPE> registered("shape");
+const eccentra::styles::RegisterKeywords shape_keywords("rolling_friction", "shape",
+                                                        "eq (19) with mu_r + mu_shape: form limited|directional|epsd");
 } // namespace
