@@ -20,9 +20,6 @@ if(ECCENTRA_OPENFOAM)
       adversary_1_disk_full_for_a_moment adversary_1b_dump_cluster_vtk_on_a_full_disk
       adversary_14_standard_output_on_a_full_disk
     LIBRARIES eccentra_link ${_of_runs})
-  foreach(_program reported_resume reported_full_disk)
-    target_sources(${_program} PRIVATE "${PROJECT_SOURCE_DIR}/tests/coupled/coupled_case.cpp")
-  endforeach()
   eccentra_reported(kills ROWS twenty_kills_on_the_shipped_cases DEPENDS annulusFoam annulusMesh LABELS slow TIMEOUT 3000
     ENVIRONMENT "ECCENTRA_CASES=${PROJECT_SOURCE_DIR}/cases")
 endif()
