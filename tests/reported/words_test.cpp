@@ -333,7 +333,7 @@ TEST(Reported, keywords_of_stock_styles) {
   const Row rows[] = {
       // particletemplate/sphere and /multisphere
       {"diameter 6e-3", "diameter 6e-3 radius constant 3e-3", "radius"},
-      {"diameter 6e-3", "diameter uniform 5e-3 6e-3", "diameter 'uniform'"},
+      {"diameter 6e-3", "diameter uniform 5e-3 6e-3", nullptr},
       {"diameter 6e-3", "diameter constant 6e-3", nullptr},
       {"diameter 6e-3", "diameter 6e-3 relative yes", "relative"},
       {"diameter 6e-3", "diameter 6e-3 region box", "region"},
@@ -351,7 +351,8 @@ TEST(Reported, keywords_of_stock_styles) {
       {"diameter 6e-3", "diameter 6e-3 use_density", "use_density"},
       {"diameter 6e-3", "diameter 6e-3 fflag on on off", "fflag"},
       {"diameter 6e-3", "diameter 6e-3 tflag on on off", "tflag"},
-      {"density constant 2500", "density lognormal 7 0.1", "density 'lognormal'"},
+      {"density constant 2500", "density lognormal 7 0.1", "density lognormal '7'"},
+      {"density constant 2500", "density lognormal 2500 0.1", nullptr},
       {"density constant 2500", "density gaussian 2500 1000", "density gaussian '1000'"},
       {"density constant 2500", "density uniform 3000 2000", "density uniform '2000'"},
       // pair gran

@@ -4,6 +4,7 @@
 #include "shape/body_list.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/bodies/fix_particletemplate_cluster.h"
+#include "styles/entry/shared_text.h"
 #include "styles/entry/style_registry.h"
 
 #include "atom.h"
@@ -20,8 +21,8 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -115,6 +116,8 @@ class CreateBodies {
       allow = value == "allow";
     }
     read();
+    for (std::size_t n = 0; n < listed_.size(); ++n)
+      shape_ids_.push_back(template_->draw_shape());
     keep_in_box();
     if (!allow)
       refuse_overlaps();
@@ -124,24 +127,11 @@ class CreateBodies {
  private:
   void refuse(const std::string& sentence) { lmp_.error->all(FLERR, ("create_bodies: " + sentence).c_str()); }
 
-  /// Rank 0 reads, so that the file need not be on all machines.
   void read() {
-    std::string text;
-    int length = -1;
-    if (lmp_.comm->me == 0) {
-      std::ifstream in(file_);
-      std::ostringstream all;
-      if (in && all << in.rdbuf()) {
-        text = all.str();
-        length = static_cast<int>(text.size());
-      }
-    }
-    MPI_Bcast(&length, 1, MPI_INT, 0, lmp_.world);
-    if (length < 0)
+    const std::optional<std::string> text = shared_text(lmp_, file_);
+    if (!text)
       refuse("file '" + file_ + "' cannot be read or is empty; expected a list of bodies, one a line");
-    text.resize(length);
-    MPI_Bcast(text.data(), length, MPI_CHAR, 0, lmp_.world);
-    std::istringstream in(text);
+    std::istringstream in(*text);
     try {
       listed_ = shape::read_body_list(in, file_);
     } catch (const std::invalid_argument& problem) {
@@ -162,15 +152,15 @@ class CreateBodies {
     }
   }
 
-  PlacedBody placed(const shape::ListedBody& body) const {
-    return FixClusterBodies::require(&lmp_).insertion().body(template_->shape_id(), body.orientation);
+  PlacedBody placed(std::size_t n) const {
+    return FixClusterBodies::require(&lmp_).insertion().body(shape_ids_[n], listed_[n].orientation);
   }
 
   /// Among the bodies of the list, and with what is there already.
   void refuse_overlaps() {
     Domain& domain = *lmp_.domain;
     FixClusterBodies& bodies = FixClusterBodies::require(&lmp_);
-    const double radius = bodies.shapes()[template_->shape_id()].bounding_radius();
+    const double radius = template_->largest_radius();
     const PlaceGrid grid(domain, listed_, 2 * radius);
     const auto apart = [&domain](const double* from, const double* to) {
       Eigen::Vector3d offset(to[0] - from[0], to[1] - from[1], to[2] - from[2]);
@@ -188,7 +178,7 @@ class CreateBodies {
         if (m <= static_cast<int>(n))
           return;
         const double depth =
-            deepest_overlap(placed(listed_[n]), placed(listed_[m]), apart(listed_[n].place, listed_[m].place));
+            deepest_overlap(placed(n), placed(static_cast<std::size_t>(m)), apart(listed_[n].place, listed_[m].place));
         if (depth > worst.depth) {
           worst.depth = depth;
           who[0] = static_cast<int>(n);
@@ -202,7 +192,8 @@ class CreateBodies {
         const PlacedBody there = bodies.shape_id(i) != FixClusterBodies::plain_sphere
                                      ? bodies.insertion().body(bodies.shape_id(i), bodies.quaternion(i))
                                      : PlacedBody{&sphere, atom.radius[i], Eigen::Matrix3d::Identity()};
-        const double depth = deepest_overlap(placed(listed_[m]), there, apart(listed_[m].place, atom.x[i]));
+        const double depth =
+            deepest_overlap(placed(static_cast<std::size_t>(m)), there, apart(listed_[m].place, atom.x[i]));
         if (depth > worst.depth) {
           worst.depth = depth;
           who[0] = m;
@@ -239,7 +230,7 @@ class CreateBodies {
         }
       std::copy(body.velocity, body.velocity + 3, atom.v[i]);
       std::copy(body.angular_velocity, body.angular_velocity + 3, atom.omega[i]);
-      FixClusterBodies::require(&lmp_).make_body(i, template_->shape_id(), density, body.orientation);
+      FixClusterBodies::require(&lmp_).make_body(i, shape_ids_[n], density, body.orientation);
     }
     const auto before = atom.natoms;
     bigint local = atom.nlocal;
@@ -263,6 +254,7 @@ class CreateBodies {
   std::string file_;
   FixParticletemplateCluster* template_ = nullptr;
   std::vector<shape::ListedBody> listed_;
+  std::vector<int> shape_ids_; ///< of the listed bodies
 };
 
 const RegisterCommand registered("create_bodies", "clusters at the places and in the orientations of a list",

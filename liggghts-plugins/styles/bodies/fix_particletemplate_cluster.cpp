@@ -8,6 +8,7 @@
 #include "styles/bodies/cluster_to_insert.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/entry/printed_notes.h"
+#include "styles/entry/shared_text.h"
 #include "styles/entry/style_registry.h"
 
 #include "error.h"
@@ -97,22 +98,38 @@ bool is_number(const char* word, double& value) {
 
 } // namespace
 
+namespace {
+
+constexpr double kCut = 3; // deviations of a bell
+constexpr int kUsualClasses = 8, kMostClasses = 64;
+
+} // namespace
+
+double DensityDistribution::mean() const {
+  if (kind != Kind::lognormal)
+    return middle;
+  const auto within = [](double deviations) { return std::erf(deviations / std::sqrt(2.0)); };
+  return middle * std::exp(0.5 * width * width) * (within(kCut - width) + within(kCut + width)) / (2 * within(kCut));
+}
+
 double DensityDistribution::draw(RanPark& random) const {
   if (kind == Kind::uniform)
-    return mean + width * (2 * random.uniform() - 1);
+    return middle + width * (2 * random.uniform() - 1);
   double deviation = 0;
-  if (kind == Kind::gaussian)
+  if (kind != Kind::constant)
     do
       deviation = random.gaussian();
-    while (std::fabs(deviation) > 3);
-  return mean + width * deviation;
+    while (std::fabs(deviation) > kCut);
+  return kind == Kind::lognormal ? middle * std::exp(width * deviation) : middle + width * deviation;
 }
 
 /// Reads the arguments after `density`, which stands at `at`; returns the place of the next keyword.
 int TemplateArguments::read_density(int narg, char** arg, int at, const Refuse& refuse) {
-  const std::string expected = "expected constant VALUE, uniform LEAST MOST, or gaussian MEAN DEVIATION, in kg/m3";
+  const std::string expected = "expected constant VALUE, uniform LEAST MOST or gaussian MEAN DEVIATION, in kg/m3, or "
+                               "lognormal MEDIAN DEVIATION, "
+                               "whose deviation is that of the logarithm";
   const std::string kind = at + 1 < narg ? arg[at + 1] : "";
-  if (kind != "constant" && kind != "uniform" && kind != "gaussian")
+  if (kind != "constant" && kind != "uniform" && kind != "gaussian" && kind != "lognormal")
     refuse("density '" + kind + "' is not a distribution; " + expected);
   const int count = kind == "constant" ? 1 : 2;
   double value[2] = {0, 0};
@@ -121,7 +138,7 @@ int TemplateArguments::read_density(int narg, char** arg, int at, const Refuse& 
     if (!is_number(word, value[k]) || !(value[k] > 0))
       refuse("density " + kind + " '" + word + "' is not a number greater than 0; " + expected);
   }
-  density.mean = value[0];
+  density.middle = value[0];
   if (kind == "uniform") {
     if (value[1] < value[0])
       refuse("density uniform '" + std::string(arg[at + 3]) + "' is less than '" + arg[at + 2] +
@@ -133,12 +150,82 @@ int TemplateArguments::read_density(int narg, char** arg, int at, const Refuse& 
              "' is more than a third of the mean: densities are drawn within three deviations of the mean and must "
              "stay above 0; expected a smaller deviation");
     density = {DensityDistribution::Kind::gaussian, value[0], value[1]};
+  } else if (kind == "lognormal") {
+    if (value[1] > 1)
+      refuse(
+          "density lognormal '" + std::string(arg[at + 3]) +
+          "' is above 1, which spreads densities over a factor of 400; expected the deviation of the logarithm, such "
+          "as 0.05");
+    constexpr double lightest = 20; // stock templates expect the mean of the logarithm here, such as 7.8
+    if (value[0] < lightest)
+      refuse("density lognormal '" + std::string(arg[at + 2]) +
+             "' is below 20 kg/m3; expected the median density, not its logarithm");
+    density = {DensityDistribution::Kind::lognormal, value[0], value[1]};
   }
   char mean[32];
-  std::snprintf(mean, sizeof mean, "%.17g", density.mean);
+  std::snprintf(mean, sizeof mean, "%.17g", density.mean());
   for (const char* word : {"density", "constant", static_cast<const char*>(mean)})
     stock.push_back(own_.emplace_back(word).data());
   return at + 2 + count;
+}
+
+/// Reads the arguments after `diameter`, which stands at `at`; returns the place of the next keyword.
+int TemplateArguments::read_diameter(LAMMPS& lmp, int narg, char** arg, int at, const Refuse& refuse) {
+  const auto word = [&](int place) { return std::string(place < narg ? arg[place] : ""); };
+  const auto length = [&](const std::string& text, const std::string& what) {
+    double value = 0;
+    if (!is_number(text.c_str(), value) || !(value > 0))
+      refuse(what + " '" + text + "' is not a length greater than 0 m");
+    return value;
+  };
+  const std::string kind = word(at + 1);
+  if (kind == "sieve") {
+    const std::string file = word(at + 2);
+    const std::optional<std::string> text = file.empty() ? std::nullopt : shared_text(lmp, file);
+    if (!text)
+      refuse("diameter sieve '" + file +
+             "' is not a file that can be read; expected rows of an aperture in m and the part of the mass that passes "
+             "it in %");
+    try {
+      sizes = shape::sieve_sizes(*text, "diameter sieve '" + file + "'");
+    } catch (const std::invalid_argument& problem) {
+      refuse(problem.what());
+    }
+    diameter = sizes.front().diameter;
+    return at + 3;
+  }
+  if (kind != "uniform" && kind != "gaussian" && kind != "lognormal") {
+    const int value = kind == "constant" ? at + 2 : at + 1; // as stock writes a radius
+    if (value >= narg)
+      refuse("keyword 'diameter' needs a value");
+    diameter = length(word(value), "diameter");
+    return value + 1;
+  }
+  int next = at + 2;
+  shape::SizeBasis basis = shape::SizeBasis::number;
+  if (word(next) == "number" || word(next) == "mass")
+    basis = word(next++) == "mass" ? shape::SizeBasis::mass : shape::SizeBasis::number;
+  const double first = length(word(next), "diameter " + kind), second = length(word(next + 1), "diameter " + kind);
+  next += 2;
+  int classes = kUsualClasses;
+  if (word(next) == "classes") {
+    double value = 0;
+    const std::string text = word(next + 1);
+    if (!is_number(text.c_str(), value) || !(value >= 1 && value <= kMostClasses) || value != std::floor(value))
+      refuse("diameter " + kind + " classes '" + text + "' is not a whole number from 1 to " +
+             std::to_string(kMostClasses));
+    classes = static_cast<int>(value);
+    next += 2;
+  }
+  try {
+    sizes = kind == "uniform"    ? shape::uniform_sizes(basis, first, second, classes)
+            : kind == "gaussian" ? shape::gaussian_sizes(basis, first, second, classes)
+                                 : shape::lognormal_sizes(basis, first, second, classes);
+  } catch (const std::invalid_argument& problem) {
+    refuse("diameter " + kind + ": " + problem.what());
+  }
+  diameter = sizes.front().diameter;
+  return next;
 }
 
 TemplateArguments::TemplateArguments(LAMMPS* lmp, int narg, char** arg) {
@@ -176,17 +263,7 @@ TemplateArguments::TemplateArguments(LAMMPS* lmp, int narg, char** arg) {
       if (shape_keywords.empty())
         refuse("nothing follows 'shape': give a shape, such as cube 64 or file NAME.clump");
     } else if (word == "diameter") {
-      if (i + 1 < narg && (!std::strcmp(arg[i + 1], "uniform") || !std::strcmp(arg[i + 1], "gaussian")))
-        refuse("diameter '" + std::string(arg[i + 1]) +
-               "' is not a length: all bodies of a template have one size; expected one particletemplate/cluster per "
-               "size, mixed by particledistribution/discrete");
-      const bool constant = i + 1 < narg && !std::strcmp(arg[i + 1], "constant"); // as stock writes a radius
-      const int at = i + (constant ? 2 : 1);
-      if (at >= narg)
-        refuse("keyword 'diameter' needs a value");
-      if (!is_number(arg[at], diameter) || !(diameter > 0))
-        refuse("diameter '" + std::string(arg[at]) + "' is not a length greater than 0 m");
-      i = at + 1;
+      i = read_diameter(*lmp, narg, arg, i, refuse);
     } else if (word == "orientation") {
       const std::string value = i + 1 < narg ? arg[i + 1] : "";
       if (value != "random" && value != "given")
@@ -227,29 +304,69 @@ std::string word_after_shape(const TemplateArguments& arguments) {
 FixParticletemplateCluster::FixParticletemplateCluster(LAMMPS* lmp, const TemplateArguments& arguments)
     : FixTemplateSphere(lmp, static_cast<int>(arguments.stock.size()), const_cast<char**>(arguments.stock.data())),
       density_(arguments.density), orientation_(arguments.orientation) {
-  std::size_t used = 0;
   try {
     shape::Notes notes;
-    shape::ClusterShape shape = shape::make_shape(arguments.shape_keywords, 0, used, arguments.diameter, notes);
-    if (used != arguments.shape_keywords.size())
-      fail(lmp, id,
-           "unknown word '" + arguments.shape_keywords[used] + "' after the shape '" + shape.name() +
-               "': diameter and orientation may follow");
+    make_sizes(arguments, notes);
     print_notes(lmp, "fix " + std::string(id) + " " + style, notes);
-    volume_ = shape.volume();
-    pdf_radius = new PDF(error);
-    pdf_radius->set_params<RANDOM_CONSTANT>(shape.bounding_radius());
-    shape_ = std::make_unique<shape::ClusterShape>(std::move(shape));
   } catch (const std::invalid_argument& problem) {
     if (const std::string word = word_after_shape(arguments); !word.empty())
       fail(lmp, id, "unknown word '" + word + "' after the shape: diameter and orientation may follow");
     fail(lmp, id, problem.what());
   }
-  volume_expect = volume_;
-  mass_expect = density_.mean * volume_;
+  double least = HUGE_VAL, part = 0;
+  volume_expect = 0;
+  for (const Size& size : sizes_) {
+    largest_ = std::max(largest_, size.bounding_radius);
+    least = std::min(least, size.bounding_radius);
+    volume_expect += (size.below - part) * size.volume;
+    part = size.below;
+  }
+  mass_expect = density_.mean() * volume_expect;
+  // Stock asks for the range alone.
+  pdf_radius = new PDF(error);
+  if (least < largest_)
+    pdf_radius->set_params<RANDOM_UNIFORM>(least, largest_);
+  else
+    pdf_radius->set_params<RANDOM_CONSTANT>(largest_);
   // FixTemplateSphere made a sphere for insertion one by one; ours is a cluster.
   delete pti;
   pti = new ClusterToInsert(lmp, nullptr);
+}
+
+void FixParticletemplateCluster::make_sizes(const TemplateArguments& arguments, shape::Notes& notes) {
+  std::vector<shape::SizeClass> classes = arguments.sizes;
+  if (classes.empty())
+    classes.push_back({1, arguments.diameter});
+  double below = 0;
+  std::string list;
+  for (const shape::SizeClass& one : classes) {
+    std::size_t used = 0;
+    shape::Notes of_this;
+    shape::ClusterShape shape = shape::make_shape(arguments.shape_keywords, 0, used, one.diameter, of_this);
+    if (used != arguments.shape_keywords.size())
+      fail(lmp, id,
+           "unknown word '" + arguments.shape_keywords[used] + "' after the shape '" + shape.name() +
+               "': diameter and orientation may follow");
+    for (const shape::Note& note : of_this) // bodies of another size mostly have the same ones
+      if (std::none_of(notes.begin(), notes.end(), [&](const shape::Note& known) { return known.text == note.text; }))
+        notes.push_back(note);
+    below += one.number;
+    char text[64];
+    std::snprintf(text, sizeof text, "%s%.4g (%.3g %%)", list.empty() ? "" : ", ", one.diameter, 100 * one.number);
+    list += text;
+    const double volume = shape.volume(), bounding_radius = shape.bounding_radius();
+    sizes_.push_back({std::make_unique<shape::ClusterShape>(std::move(shape)), below, volume, bounding_radius, -1});
+  }
+  sizes_.back().below = 1;
+  if (classes.size() > 1)
+    notes.push_back({"diameters [m] and their part of the number: " + list, false});
+}
+
+const FixParticletemplateCluster::Size& FixParticletemplateCluster::size_of(RanPark& random) const {
+  if (sizes_.size() == 1)
+    return sizes_.front();
+  const double part = random.uniform();
+  return *std::find_if(sizes_.begin(), sizes_.end() - 1, [part](const Size& size) { return part < size.below; });
 }
 
 FixParticletemplateCluster::~FixParticletemplateCluster() {
@@ -259,17 +376,21 @@ FixParticletemplateCluster::~FixParticletemplateCluster() {
 }
 
 void FixParticletemplateCluster::post_create() {
-  shape_id_ = FixClusterBodies::require(lmp).shapes().add(std::move(*shape_));
+  for (Size& size : sizes_) {
+    size.shape_id = FixClusterBodies::require(lmp).shapes().add(std::move(*size.shape));
+    size.shape.reset();
+  }
 }
 
 void FixParticletemplateCluster::fill(ParticleToInsert& particle) {
   auto& cluster = static_cast<ClusterToInsert&>(particle);
-  cluster.shape_id = shape_id_;
+  const Size& size = size_of(*random_insertion);
+  cluster.shape_id = size.shape_id;
   cluster.atom_type = atom_type;
-  cluster.radius_ins[0] = cluster.r_bound_ins = expectancy(pdf_radius);
+  cluster.radius_ins[0] = cluster.r_bound_ins = size.bounding_radius;
   cluster.density_ins = density_.draw(*random_insertion);
-  cluster.volume_ins = volume_;
-  cluster.mass_ins = cluster.density_ins * volume_;
+  cluster.volume_ins = size.volume;
+  cluster.mass_ins = cluster.density_ins * size.volume;
   for (int k = 0; k < 3; ++k)
     cluster.x_ins[0][k] = cluster.v_ins[k] = cluster.omega_ins[k] = 0;
   constexpr double upright[4] = {1, 0, 0, 0};

@@ -4,6 +4,8 @@
 #pragma once
 
 #include "shape/cluster_shape.h"
+#include "shape/note.h"
+#include "shape/size_classes.h"
 
 #include <mpi.h>
 
@@ -23,10 +25,11 @@ enum class TemplateOrientation { as_inserted, random, given };
 
 /// Density of the solid [kg/m3]: constant, or drawn for each body.
 struct DensityDistribution {
-  enum class Kind { constant, uniform, gaussian } kind = Kind::constant;
-  double mean = 0;
-  double width = 0; ///< uniform: half the range; gaussian: the standard deviation, cut off at three of them
-  double draw(LAMMPS_NS::RanPark& random) const;
+  enum class Kind { constant, uniform, gaussian, lognormal } kind = Kind::constant;
+  double middle = 0; ///< the mean; lognormal: the median
+  double width = 0;  ///< uniform: half the range; gaussian: the standard deviation; lognormal: that of the logarithm
+  double mean() const;
+  double draw(LAMMPS_NS::RanPark& random) const; ///< bells are cut off at three deviations
 };
 
 /// The arguments of the command: those of stock templates, and ours.
@@ -35,12 +38,14 @@ struct TemplateArguments {
   std::vector<char*> stock;                ///< what FixTemplateSphere reads
   std::vector<std::string> shape_keywords; ///< as make_shape takes them
   double diameter = 0;                     ///< of the sphere of equal volume [m]; 0: as the file says
+  std::vector<shape::SizeClass> sizes;     ///< with a distribution of diameters; else empty
   DensityDistribution density;
   TemplateOrientation orientation = TemplateOrientation::as_inserted;
 
  private:
   using Refuse = std::function<void(const std::string&)>;
   int read_density(int narg, char** arg, int at, const Refuse& refuse);
+  int read_diameter(LAMMPS_NS::LAMMPS& lmp, int narg, char** arg, int at, const Refuse& refuse);
   std::list<std::string> own_; ///< arguments of `stock` that the user did not type
 };
 
@@ -57,20 +62,30 @@ class FixParticletemplateCluster : public LAMMPS_NS::FixTemplateSphere {
   void randomize_ptilist(int count, int distribution_groupbit, int distribution_order) override;
   void direct_set_ptlist(int i, const void* data, int distribution_groupbit, int distribution_order) override;
 
-  int shape_id() const { return shape_id_; }
-  double density() const { return density_.mean; } ///< of the solid [kg/m3]
+  /// A shape of the distribution of sizes, the same on all ranks; the only one without a distribution.
+  int draw_shape() { return size_of(*random_mc).shape_id; }
+  double largest_radius() const { return largest_; } ///< of the bounding spheres [m]
   int type() const { return atom_type; }
   /// A density of the distribution [kg/m3], the same on all ranks.
   double draw_density() { return density_.draw(*random_mc); }
   TemplateOrientation orientation() const { return orientation_; }
 
  private:
+  /// Bodies of one size.
+  struct Size {
+    std::unique_ptr<shape::ClusterShape> shape; ///< until the table takes it
+    double below;                               ///< part of the number that is of this or of a smaller size
+    double volume;
+    double bounding_radius;
+    int shape_id;
+  };
+  void make_sizes(const TemplateArguments& arguments, shape::Notes& notes);
+  const Size& size_of(LAMMPS_NS::RanPark& random) const;
   void fill(LAMMPS_NS::ParticleToInsert& particle);
 
-  std::unique_ptr<shape::ClusterShape> shape_; ///< until the table takes it
-  int shape_id_ = -1;
+  std::vector<Size> sizes_;
+  double largest_ = 0;
   DensityDistribution density_;
-  double volume_ = 0;
   TemplateOrientation orientation_;
 };
 

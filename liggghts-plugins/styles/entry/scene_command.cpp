@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Command scene: the numbers of a case, from the file that the mesh and the boundary conditions read, too.
 #include "base/scene_file.h"
+#include "styles/entry/shared_text.h"
 #include "styles/entry/style_registry.h"
-
-#include <mpi.h>
 
 #include "error.h"
 #include "input.h"
 #include "lammps.h"
 
-#include <fstream>
-#include <sstream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -20,27 +18,11 @@ namespace {
 
 using namespace LAMMPS_NS;
 
-/// The file's text on every rank, read by the first.
 std::string text_of(LAMMPS* lmp, const std::string& file) {
-  int rank = 0;
-  MPI_Comm_rank(lmp->world, &rank);
-  std::string text;
-  int size = -1;
-  if (rank == 0) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream all;
-    if (in && all << in.rdbuf()) {
-      text = all.str();
-      size = static_cast<int>(text.size());
-    }
-  }
-  MPI_Bcast(&size, 1, MPI_INT, 0, lmp->world);
-  if (size < 0)
-    throw std::invalid_argument("scene: file '" + file +
-                                "' cannot be read; expected a dictionary of entries such as 'length 0.3;'");
-  text.resize(size);
-  MPI_Bcast(text.data(), size, MPI_CHAR, 0, lmp->world);
-  return text;
+  if (const std::optional<std::string> text = shared_text(*lmp, file))
+    return *text;
+  throw std::invalid_argument("scene: file '" + file +
+                              "' cannot be read; expected a dictionary of entries such as 'length 0.3;'");
 }
 
 /// Each entry becomes an index variable: one that the command line has set (-var) keeps its value.
