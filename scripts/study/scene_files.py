@@ -7,6 +7,7 @@ import pathlib
 import shutil
 
 from .programs import BUILD, CASES, SCENES, Failure
+from .scene_grains import sizes_row
 
 HEADER = """// SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
@@ -32,7 +33,7 @@ def entries(layout):
             ("mudDensity", wish.mud_density, "[kg/m3]"), ("largestViscosity", largest_viscosity(layout), "of mud at rest [Pa s] (docs/rheology.md)"), None,
             ("clusters", 0 if wish.shape == "sphere" else 1, "1: clusters of the shape; 0: spheres"),
             ("shape", f'"{"cube 8" if wish.shape == "sphere" else wish.shape}"', "as in fix particletemplate/cluster"),
-            ("diameter", wish.diameter, "of the sphere of equal volume [m]"), ("solidDensity", wish.solid_density, "[kg/m3]"),
+            ("diameter", wish.diameter, "of the sphere of equal volume [m]"), *sizes_row(wish.spread), ("solidDensity", wish.solid_density, "[kg/m3]"),
             ("youngsModulus", wish.stiffness, "[Pa]"), ("friction", wish.friction, ""), ("restitution", wish.restitution, ""),
             ("rolling", wish.rolling, "rolling friction of spheres (cdt)"), ("effects", '"drag chien pressure_gradient on"', "docs/fix_fluid_force.md"),
             ("seed", wish.seed, "of where grains appear: a prime above 10000")]
@@ -74,6 +75,11 @@ def part(name):
     """A part of the DEM script; the licence stands in its head alone."""
     text = (SCENES / "new" / f"{name}.in").read_text()
     return text if name in ("head", "dry_head") else "".join(line for line in text.splitlines(keepends=True) if not line.startswith("# SPDX-"))
+
+
+def with_sizes(text, spread):
+    """The script whose template reads the distribution of the scene."""
+    return text.replace("diameter ${diameter}", "diameter ${sizes}") if spread else text
 
 
 def script_text(kind):
@@ -130,7 +136,7 @@ def write(layout, folder, files=()):
             # A hole without grains has no mean diameter to take the length from.
             coupling.write_text(coupling.read_text().replace("diffusion;\n", "diffusion;\nlength          #eval{ 3 * $:scene.diameter };\n"))
         write_scene(entries(layout), files, draft)
-        (draft / "in.cuttings").write_text(script_text(kind))
+        (draft / "in.cuttings").write_text(with_sizes(script_text(kind), layout.wishes.spread))
 
 
 def plan_script(kind):
@@ -142,8 +148,8 @@ def plan_script(kind):
     return text + part(kind).replace("@GRAINS@\n", part("grains")).replace("@OUTPUT@\n", part("output"))
 
 
-def write_plan(plan, folder, files=()):
-    """Makes the folder of a heap, a drum or a bed; files: that the shape names, by absolute paths."""
+def write_plan(plan, folder, files=(), spread=None):
+    """Makes the folder of a heap, a drum or a bed; files: that shape and spread name, by absolute paths."""
     with draft_of(folder) as draft:
         if plan.kind == "bed":
             shutil.copytree(SCENES / "new" / "bed", draft)
@@ -152,4 +158,4 @@ def write_plan(plan, folder, files=()):
         else:
             draft.mkdir()
         write_scene(plan.entries, files, draft)
-        (draft / f"in.{plan.kind}").write_text(plan_script(plan.kind))
+        (draft / f"in.{plan.kind}").write_text(with_sizes(plan_script(plan.kind), spread))

@@ -10,6 +10,7 @@ import typing
 
 from . import programs
 from .programs import BUILD, Failure
+from .spread import Spread
 
 GRAVITY = 9.81
 YIELD_WEIGHT = 7 * math.pi / 24  # of tau0 in the stress scale around a particle (Ansley and Smith 1967, docs/closures.md)
@@ -27,6 +28,7 @@ class Grain(typing.NamedTuple):
     friction: float
     restitution: float
     rolling: float
+    spread: typing.Optional[Spread] = None  # of the diameter
 
     @property
     def is_sphere(self):
@@ -34,7 +36,13 @@ class Grain(typing.NamedTuple):
 
     @property
     def volume(self):
-        return math.pi / 6 * self.diameter**3
+        """Mean volume [m3]."""
+        return self.spread.volume if self.spread else math.pi / 6 * self.diameter**3
+
+    @property
+    def smallest(self):
+        """Diameter of the smallest grains [m]."""
+        return self.spread.smallest if self.spread else self.diameter
 
     def mass(self):
         return self.solid_density * self.volume
@@ -47,10 +55,11 @@ class Form(typing.NamedTuple):
 
 
 def form_of(grain):
-    """By clusterShape; Failure, in its words, where there is no such shape."""
+    """Of the largest grains, by clusterShape; Failure, in its words, where there is no such shape."""
+    diameter = grain.spread.largest if grain.spread else grain.diameter
     if grain.is_sphere:
-        return Form(1.0, 0.5 * grain.diameter)
-    words = [str(BUILD / "bin" / "clusterShape"), *grain.shape.split(), "--diameter", f"{grain.diameter!r}", "--json"]
+        return Form(1.0, 0.5 * diameter)
+    words = [str(BUILD / "bin" / "clusterShape"), *grain.shape.split(), "--diameter", f"{diameter!r}", "--json"]
     done = subprocess.run(words, capture_output=True, text=True, check=False, env=programs.environment())
     if done.returncode:
         said = (done.stderr.strip() or f"clusterShape ended with {done.returncode}").splitlines()[-1]
@@ -119,10 +128,15 @@ def said_time(seconds):
     return f"about {max(seconds, 1):.0f} s"
 
 
+def sizes_row(spread):
+    """The row of the file scene that a distribution needs."""
+    return [("sizes", f'"{spread.words}"', "diameters, as in fix particletemplate/cluster; diameter is their middle")] if spread else []
+
+
 def entries(grain):
     """Rows (name, value, what it is) of the file scene."""
     return [("clusters", 0 if grain.is_sphere else 1, "1: clusters or rounded bodies of the shape; 0: spheres"),
             ("shape", f'"{"cube 8" if grain.is_sphere else grain.shape}"', "as in fix particletemplate/cluster"),
-            ("diameter", grain.diameter, "of the sphere of equal volume [m]"), ("solidDensity", grain.solid_density, "[kg/m3]"),
+            ("diameter", grain.diameter, "of the sphere of equal volume [m]"), *sizes_row(grain.spread), ("solidDensity", grain.solid_density, "[kg/m3]"),
             ("youngsModulus", grain.stiffness, "[Pa]"), ("friction", grain.friction, "between grains"),
             ("restitution", grain.restitution, ""), ("rolling", grain.rolling, "rolling friction of spheres (cdt)")]

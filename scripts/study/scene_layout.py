@@ -10,6 +10,7 @@ import typing
 from . import programs
 from .annulus_flow import Annulus, Mud, laminar_limit, metzner_reed, pressure_gradient, slot_speed
 from .programs import BUILD, Failure
+from .spread import Spread
 
 PI, GRAVITY = math.pi, 9.81
 YIELD_NUMBER = 0.0476667  # of a sphere that a yield stress just holds: tau0 / ((rho_p - rho_f) g d), Beris et al. 1985
@@ -77,6 +78,12 @@ class Wishes(typing.NamedTuple):
     fluid_step: typing.Optional[str]
     interval: typing.Optional[str]
     seed: str
+    spread: typing.Optional[Spread] = None  # of the diameter
+
+    @property
+    def smallest(self):
+        """Diameter of the smallest grains [m]."""
+        return self.spread.smallest if self.spread else self.diameter
 
 
 class Layout(typing.NamedTuple):
@@ -108,12 +115,13 @@ def critical_step(wish, speed):
     """[s] in a bed, from that of an impact at `speed` [m/s] by fix timestep/limit in a scene of one such grain."""
     spheres = wish.shape == "sphere"
     # A grain's longest extent is not known yet: a disk of aspect 0.1 has 1.9 times the radius of its equal sphere, a needle more.
-    reach = 4 * wish.diameter
-    words = {"side": 4 * reach, "reach": reach, "skin": 0.3 * wish.diameter, "stiffness": wish.stiffness, "restitution": wish.restitution,
+    diameter = wish.smallest
+    reach = 4 * diameter
+    words = {"side": 4 * reach, "reach": reach, "skin": 0.3 * diameter, "stiffness": wish.stiffness, "restitution": wish.restitution,
              "friction": wish.friction, "speed": speed, "pair": "gran" if spheres else "gran/cluster", "move": "nve/sphere" if spheres else "nve/cluster",
-             "template": f"fix grain all particletemplate/sphere 15485863 atom_type 1 density constant {wish.solid_density} radius constant {wish.diameter / 2}"
+             "template": f"fix grain all particletemplate/sphere 15485863 atom_type 1 density constant {wish.solid_density} radius constant {diameter / 2}"
              if spheres else f"fix grain all particletemplate/cluster 15485863 atom_type 1 density constant {wish.solid_density} shape {wish.shape} "
-             f"diameter {wish.diameter}"}
+             f"diameter {diameter}"}
     with tempfile.TemporaryDirectory(prefix="eccentra-new-") as folder:
         script = pathlib.Path(folder) / "in.grain"
         script.write_text(TEMPLATE.format(**words))
@@ -180,7 +188,7 @@ def lay_out(wish):
     cells, why_cells = cells_of(wish, annulus)
     fluid_step, why_fluid_step = fluid_step_of(wish, cells, wide)
     critical = critical_step(wish, max(1.0, 2 * wide))
-    grain = PI / 6 * wish.diameter**3
+    grain = wish.spread.volume if wish.spread else PI / 6 * wish.diameter**3
     if wish.kind == "section":
         count = round(wish.solid * annulus.area * wish.length / grain)
         why_count = f"{100 * wish.solid:.3g} % of {annulus.area * wish.length:.4g} m3"
@@ -199,8 +207,9 @@ def warnings_of(layout):
     """Where cells, gaps, grains and steps do not fit each other."""
     wish, annulus, cells = layout.wishes, layout.annulus, layout.cells
     said = []
-    if wish.diameter > annulus.narrowest:
-        said.append(f"the narrow side ({1e3 * annulus.narrowest:.3g} mm) lets no grain of {1e3 * wish.diameter:.3g} mm through: grains wedge there")
+    largest = wish.spread.largest if wish.spread else wish.diameter
+    if largest > annulus.narrowest:
+        said.append(f"the narrow side ({1e3 * annulus.narrowest:.3g} mm) lets no grain of {1e3 * largest:.3g} mm through: grains wedge there")
     if max(layout.reynolds_mean, layout.reynolds_wide) > layout.laminar_limit:
         said.append(f"the flow is turbulent where Re is above {layout.laminar_limit:.4g}, and is computed as laminar: "
                     "pressure drop and transport come out too low")

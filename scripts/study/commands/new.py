@@ -3,12 +3,14 @@
 """Writes a case of one's own, whose script, mesh and boundary conditions take every number from one file, and says how it was laid out."""
 import argparse
 import pathlib
+import shutil
 import sys
 import tempfile
 
 from .. import grain_shapes, scene_bed, scene_dry, scene_files, scene_grains, scene_layout
 from ..annulus_flow import Mud
 from ..programs import Failure
+from ..spread import spread_of
 from ..units import (CONSISTENCY, DENSITY, FLOW, LENGTH, MASS_RATE, PENETRATION, SPEED, STIFFNESS, STRESS, VISCOSITY, both, positive, quantity)
 
 EPILOG = """lengths take m, mm, in, ft; the flow m/s, ft/min (mean velocity) or l/min, gpm, m3/h (volume); densities kg/m3, sg, ppg;
@@ -124,6 +126,8 @@ def grain_options(new, diameter, restitution):
                        help="sphere, or a shape of clusters or rounded bodies: \"cube 27\", \"disk 19\", \"smooth cube rounding 0.2\", "
                        "\"file grain.clump\", \"grain flake\" (a grain by name, see eccentra grain) (default: %(default)s)")
     grain.add_argument("--diameter", default=diameter, help="of the sphere of equal volume (default: 6.35mm; bed 4mm)")
+    grain.add_argument("--spread", help="sizes about --diameter, by mass: \"lognormal 0.3\" (deviation of the logarithm), \"gaussian 0.2\" or "
+                       "\"uniform 0.5\" (parts of the diameter), \"sieve FILE\" (default: one size)")
     grain.add_argument("--solid-density", default="2619", help="(default: %(default)s kg/m3)")
     grain.add_argument("--stiffness", default="5e6", help="Young's modulus in the contacts (default: %(default)s Pa)")
     grain.add_argument("--friction", default="0.5", help="0 to 2 (default: %(default)s)")
@@ -164,7 +168,8 @@ def wishes(words):
         solid=share("solid", words.solid, 0, 0.3), rate=rate * density * 0.25 * scene_layout.PI * hole**2 if rate_kind is PENETRATION else rate,
         stiffness=stiffness_of(words.stiffness), friction=share("friction", words.friction, 0, 2),
         restitution=share("restitution", words.restitution, 0.05, 1), rolling=share("rolling", words.rolling, 0, 1),
-        seconds=share("seconds", words.seconds, 0.01, 1e5), cells=words.cells, fluid_step=words.fluid_step, interval=words.interval, seed=words.seed)
+        seconds=share("seconds", words.seconds, 0.01, 1e5), cells=words.cells, fluid_step=words.fluid_step, interval=words.interval, seed=words.seed,
+        spread=words.spread)
 
 
 def table(layout):
@@ -180,7 +185,7 @@ def table(layout):
              ("Reynolds number", f"{found.reynolds_mean:.4g} mean, {found.reynolds_wide:.4g} wide side",
               f"laminar below {found.laminar_limit:.4g} (Dodge and Metzner)")]
     steps = wish.seconds / found.fluid_step
-    grain = scene_grains.Grain(wish.shape, wish.diameter, wish.solid_density, wish.stiffness, wish.friction, wish.restitution, wish.rolling)
+    grain = scene_grains.Grain(wish.shape, wish.diameter, wish.solid_density, wish.stiffness, wish.friction, wish.restitution, wish.rolling, wish.spread)
     form = scene_grains.form_of(grain)
     mud = Mud(wish.tau0, wish.k, wish.n, wish.mud_density)
     lines.append(("settling velocity", f"{scene_grains.settling_speed(grain, form.sphericity, mud, 'chien'):.4g} m/s",
@@ -221,7 +226,7 @@ def grain_of(words):
     return scene_grains.Grain(
         shape=words.shape, diameter=positive("diameter", words.diameter, LENGTH)[0], solid_density=positive("solid-density", words.solid_density, DENSITY)[0],
         stiffness=stiffness_of(words.stiffness), friction=share("friction", words.friction, 0, 2),
-        restitution=share("restitution", words.restitution, 0.05, 1), rolling=share("rolling", words.rolling, 0, 1))
+        restitution=share("restitution", words.restitution, 0.05, 1), rolling=share("rolling", words.rolling, 0, 1), spread=words.spread)
 
 
 def whole(what, text, most):
@@ -286,6 +291,14 @@ def new(folder):
     kind = next((word for word in sys.argv[1:] if word in KINDS), None)
     words = parser(None if {"-h", "--help"} & set(sys.argv[1:]) else kind).parse_args()
     words.shape, files = with_files(words.shape, folder)
+    if words.spread is not None:
+        words.spread = spread_of(words.spread, positive("diameter", words.diameter, LENGTH)[0])
+        words.diameter = f"{words.spread.middle!r}"
+        words.shape = "sphere 1" if words.shape == "sphere" else words.shape  # sizes are those of a template of clusters
+        if words.spread.file:  # runs copy files of this name
+            file = pathlib.Path(shutil.copy(words.spread.file, pathlib.Path(folder) / "sizes.sieve"))
+            words.spread = words.spread._replace(words=f"sieve {file}")
+            files.append(file)
     if words.kind in ("section", "well"):
         layout = scene_layout.lay_out(wishes(words))
         lines, warnings = table(layout), layout.warnings
@@ -296,7 +309,10 @@ def new(folder):
     for warning in warnings:
         sys.stdout.write(f"warning: {warning}\n")
     if not words.plan:
-        (scene_files.write if words.kind in ("section", "well") else scene_files.write_plan)(layout, words.name, files)
+        if words.kind in ("section", "well"):
+            scene_files.write(layout, words.name, files)
+        else:
+            scene_files.write_plan(layout, words.name, files, words.spread)
         sys.stdout.write(f"the case is in {words.name}; its numbers are in {words.name / 'scene'}. Run it: {words.name / 'run'} --output FOLDER; "
                          "draw it: eccentra report FOLDER\n")
     return 0
