@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostTriangles = 1500000; // of the bodies of one time
+constexpr std::size_t kMostTriangles = 300000; // of the bodies of one time
 
 /// A block of a .vtm: its name and the file's.
 struct Block {
