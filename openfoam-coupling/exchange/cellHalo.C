@@ -17,16 +17,15 @@ constexpr int kTag = 4711;
 constexpr int kMessage = 480;
 } // namespace
 
-cellHalo::cellHalo(const Foam::fvMesh& mesh) {
+cellHalo::cellHalo(const Foam::fvMesh& mesh, const Foam::boolList& wanted) {
   const auto shared = sharedPatches(mesh);
   for (std::size_t rank = 0; rank < shared.size(); ++rank) {
     const auto begin = static_cast<Foam::label>(faces_.size());
     for (const Foam::label patchi : shared[rank]) {
       const Foam::polyPatch& patch = mesh.boundaryMesh()[patchi];
-      for (Foam::label i = 0; i < patch.size(); ++i) {
-        faces_.push_back(patch.start() + i);
-        cells_.push_back(mesh.faceOwner()[patch.start() + i]);
-      }
+      for (Foam::label face = patch.start(); face < patch.start() + patch.size(); ++face)
+        if (wanted[face - mesh.nInternalFaces()])
+          faces_.push_back(face);
     }
     const auto count = static_cast<Foam::label>(faces_.size()) - begin;
     if (count > 0)
@@ -36,22 +35,23 @@ cellHalo::cellHalo(const Foam::fvMesh& mesh) {
   incoming_.resize(faces_.size() * kWide);
 }
 
-template <int width> void cellHalo::send(const FieldBundle<width>& fields, int used) {
+template <int width>
+void cellHalo::send(const FieldBundle<width>& fields, const std::vector<Foam::label>& at, int used) {
   requests_.clear();
   const auto forMessages = [&](auto visit) {
     for (const Neighbour& other : neighbours_)
-      for (int at = other.begin * used, left = other.count * used; left > 0; at += kMessage, left -= kMessage)
-        visit(at, std::min(left, kMessage), other.rank, &requests_.emplace_back());
+      for (int begin = other.begin * used, left = other.count * used; left > 0; begin += kMessage, left -= kMessage)
+        visit(begin, std::min(left, kMessage), other.rank, &requests_.emplace_back());
   };
-  forMessages([&](int at, int count, int rank, MPI_Request* request) {
-    MPI_Irecv(&incoming_[at], count, MPI_DOUBLE, rank, kTag, MPI_COMM_WORLD, request);
+  forMessages([&](int begin, int count, int rank, MPI_Request* request) {
+    MPI_Irecv(&incoming_[begin], count, MPI_DOUBLE, rank, kTag, MPI_COMM_WORLD, request);
   });
   double* out = outgoing_.data();
-  for (const Foam::label cell : cells_)
+  for (const Foam::label place : at)
     for (int k = 0; k < used; ++k)
-      *out++ = fields[cell].at[k];
-  forMessages([&](int at, int count, int rank, MPI_Request* request) {
-    MPI_Isend(&outgoing_[at], count, MPI_DOUBLE, rank, kTag, MPI_COMM_WORLD, request);
+      *out++ = fields[place].at[k];
+  forMessages([&](int begin, int count, int rank, MPI_Request* request) {
+    MPI_Isend(&outgoing_[begin], count, MPI_DOUBLE, rank, kTag, MPI_COMM_WORLD, request);
   });
 }
 
@@ -61,7 +61,7 @@ const double* cellHalo::values() {
   return incoming_.data();
 }
 
-template void cellHalo::send(const FieldBundle<kNarrow>&, int);
-template void cellHalo::send(const FieldBundle<kWide>&, int);
+template void cellHalo::send(const FieldBundle<kNarrow>&, const std::vector<Foam::label>&, int);
+template void cellHalo::send(const FieldBundle<kWide>&, const std::vector<Foam::label>&, int);
 
 } // namespace eccentra::exchange

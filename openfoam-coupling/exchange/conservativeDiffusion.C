@@ -7,9 +7,11 @@
 
 #include "cyclicPolyPatch.H"
 #include "surfaceFields.H"
+#include "syncTools.H"
 #include "volFields.H"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace eccentra::exchange {
@@ -52,28 +54,58 @@ std::vector<double> onAllFaces(const fvMesh& mesh, const surfaceScalarField& fie
   return values;
 }
 
+std::vector<double> conductances(const fvMesh& mesh, double length, int steps) {
+  const dimensionedScalar whole("whole", dimArea, kStepPerSquaredLength * sqr(length));
+  const surfaceScalarField rest(max(whole - kStepPerSquaredCell / sqr(mesh.nonOrthDeltaCoeffs()), whole * 0.0));
+  return onAllFaces(mesh, surfaceScalarField(rest / scalar(steps) * mesh.magSf() * mesh.nonOrthDeltaCoeffs()));
+}
+
+/// Boundary faces through which something flows, as either side computes it.
+boolList conducting(const fvMesh& mesh, const std::vector<double>& conductance) {
+  boolList flows(mesh.nBoundaryFaces());
+  forAll(flows, i) flows[i] = conductance[mesh.nInternalFaces() + i] > 0;
+  syncTools::syncBoundaryFaceList(mesh, flows, orEqOp<bool>());
+  return flows;
+}
+
+/// The smallest number of a set that has been united, with shorter ways for the next time.
+label rootOf(std::vector<label>& parent, label cell) {
+  while (parent[cell] != cell)
+    cell = parent[cell] = parent[parent[cell]];
+  return cell;
+}
+
+void unite(std::vector<label>& parent, label a, label b) {
+  a = rootOf(parent, a);
+  b = rootOf(parent, b);
+  parent[std::max(a, b)] = std::min(a, b);
+}
+
 } // namespace
 
 conservativeDiffusion::conservativeDiffusion(const fvMesh& mesh, double length, int steps, double tolerance)
-    : mesh_(mesh), halo_(mesh), diagonal_(mesh.nCells(), 0.0) {
-  const dimensionedScalar whole("whole", dimArea, kStepPerSquaredLength * sqr(length));
-  const surfaceScalarField rest(max(whole - kStepPerSquaredCell / sqr(mesh.nonOrthDeltaCoeffs()), whole * 0.0));
-  const std::vector<double> conductance =
-      onAllFaces(mesh, surfaceScalarField(rest / scalar(steps) * mesh.magSf() * mesh.nonOrthDeltaCoeffs()));
+    : conservativeDiffusion(mesh, conductances(mesh, length, steps), steps, tolerance) {}
+
+conservativeDiffusion::conservativeDiffusion(const fvMesh& mesh, const std::vector<double>& conductance, int steps,
+                                             double tolerance)
+    : mesh_(mesh), halo_(mesh, conducting(mesh, conductance)), diagonal_(mesh.nCells(), 0.0) {
   const auto coefficientOf = [&](label cell, label face) { return conductance[face] / mesh.V()[cell]; };
   rowBegin_.assign(mesh.nCells() + 1, 0);
   forNeighbours(mesh, [&](label cell, label neighbour, label face) {
-    neighbour_.push_back(neighbour);
-    coefficient_.push_back(coefficientOf(cell, face));
-    diagonal_[cell] += coefficient_.back();
+    if (conductance[face] > 0) {
+      neighbour_.push_back(neighbour);
+      coefficient_.push_back(coefficientOf(cell, face));
+      diagonal_[cell] += coefficient_.back();
+    }
     rowBegin_[cell + 1] = static_cast<label>(neighbour_.size());
   });
   // Cells without neighbours have empty rows.
   for (std::size_t cell = 1; cell < rowBegin_.size(); ++cell)
     rowBegin_[cell] = std::max(rowBegin_[cell], rowBegin_[cell - 1]);
-  for (std::size_t i = 0; i < halo_.faces().size(); ++i) {
-    haloCoefficient_.push_back(coefficientOf(halo_.cells()[i], halo_.faces()[i]));
-    diagonal_[halo_.cells()[i]] += haloCoefficient_.back();
+  for (const label face : halo_.faces()) {
+    haloPlace_.push_back(mesh.faceOwner()[face]);
+    haloCoefficient_.push_back(coefficientOf(haloPlace_.back(), face));
+    diagonal_[haloPlace_.back()] += haloCoefficient_.back();
   }
   // No eigenvalue of V^-1 M is larger than 1 and twice the largest diagonal (Gershgorin).
   const double largest =
@@ -84,50 +116,131 @@ conservativeDiffusion::conservativeDiffusion(const fvMesh& mesh, double length, 
   for (auto* values : {&diagonal_, &coefficient_, &haloCoefficient_})
     for (double& value : *values)
       value /= largest;
+  divideInParts();
+  orderRows();
+}
+
+void conservativeDiffusion::divideInParts() {
+  std::vector<label> parent(mesh_.nCells());
+  std::iota(parent.begin(), parent.end(), 0);
+  for (label cell = 0; cell < mesh_.nCells(); ++cell)
+    for (label k = rowBegin_[cell]; k < rowBegin_[cell + 1]; ++k)
+      unite(parent, cell, neighbour_[k]);
+  for (const label cell : haloPlace_)
+    unite(parent, haloPlace_[0], cell);
+  // A root comes before all other cells of its part.
+  partOf_.resize(mesh_.nCells());
+  for (label cell = 0; cell < mesh_.nCells(); ++cell) {
+    const label root = rootOf(parent, cell);
+    if (root == cell) {
+      partOf_[cell] = static_cast<label>(parts_.size());
+      parts_.push_back({0, 0, false});
+    } else
+      partOf_[cell] = partOf_[root];
+    ++parts_[partOf_[cell]].end;
+  }
+  if (!haloPlace_.empty())
+    parts_[partOf_[haloPlace_[0]]].acrossRanks = true;
+  label end = 0;
+  for (Part& part : parts_) {
+    part.begin = end;
+    end = part.end += end;
+  }
+}
+
+void conservativeDiffusion::orderRows() {
+  std::vector<label> next, place(mesh_.nCells());
+  for (const Part& part : parts_)
+    next.push_back(part.begin);
+  cellOf_.resize(mesh_.nCells());
+  for (label cell = 0; cell < mesh_.nCells(); ++cell) {
+    label& at = next[partOf_[cell]];
+    place[cell] = at - parts_[partOf_[cell]].begin;
+    cellOf_[at++] = cell;
+  }
+  std::vector<label> rowBegin{0}, neighbour;
+  std::vector<double> coefficient, diagonal;
+  for (const label cell : cellOf_) {
+    for (label k = rowBegin_[cell]; k < rowBegin_[cell + 1]; ++k) {
+      neighbour.push_back(place[neighbour_[k]]);
+      coefficient.push_back(coefficient_[k]);
+    }
+    rowBegin.push_back(static_cast<label>(neighbour.size()));
+    diagonal.push_back(diagonal_[cell]);
+  }
+  rowBegin_ = std::move(rowBegin);
+  neighbour_ = std::move(neighbour);
+  coefficient_ = std::move(coefficient);
+  diagonal_ = std::move(diagonal);
+  for (label& cell : haloPlace_)
+    cell = place[cell];
 }
 
 template <int width>
-void conservativeDiffusion::step(double factor, const FieldBundle<width>& fields, int used, double c,
+void conservativeDiffusion::step(const Part& part, double factor, const FieldBundle<width>& fields, int used, double c,
                                  const FieldBundle<width>& start, FieldBundle<width>& values) {
-  halo_.send(fields, used);
-  const label cells = mesh_.nCells();
-  for (label cell = 0; cell < cells; ++cell) {
-    auto sum = (diagonal_[cell] - 1.0) * fields[cell].at;
-    for (label k = rowBegin_[cell]; k < rowBegin_[cell + 1]; ++k)
+  if (part.acrossRanks)
+    halo_.send(fields, haloPlace_, used);
+  for (label row = part.begin, i = 0; row < part.end; ++row, ++i) {
+    auto sum = (diagonal_[row] - 1.0) * fields[i].at;
+    for (label k = rowBegin_[row]; k < rowBegin_[row + 1]; ++k)
       sum -= coefficient_[k] * fields[neighbour_[k]].at;
-    values[cell].at = factor * sum + c * start[cell].at - values[cell].at;
+    values[i].at = factor * sum + c * start[i].at - values[i].at;
   }
+  if (!part.acrossRanks)
+    return;
   const double* behind = halo_.values();
   for (std::size_t i = 0; i < haloCoefficient_.size(); ++i)
     for (int k = 0; k < used; ++k)
-      values[halo_.cells()[i]].at[k] -= factor * haloCoefficient_[i] * *behind++;
+      values[haloPlace_[i]].at[k] -= factor * haloCoefficient_[i] * *behind++;
 }
 
-template <int width> void conservativeDiffusion::sample(FieldBundle<width>& fields, int used) {
-  if (series_.empty())
-    return;
+template <int width, class Load, class Store>
+void conservativeDiffusion::apply(const Part& part, int used, Load load, Store store) {
+  const label cells = part.end - part.begin;
+  FieldBundle<width> start(cells), now(cells, Bundled<width>{}), before(now);
+  for (label i = 0; i < cells; ++i)
+    start[i] = load(cellOf_[part.begin + i]);
   // Clenshaw's recurrence.
-  FieldBundle<width> now(fields.size(), Bundled<width>{}), before(now);
   for (std::size_t k = series_.size() - 1; k >= 1; --k) {
-    step(2.0, now, used, series_[k], fields, before);
+    step(part, 2.0, now, used, series_[k], start, before);
     std::swap(now, before);
   }
-  step(1.0, now, used, series_[0], fields, before);
-  std::swap(fields, before);
+  step(part, 1.0, now, used, series_[0], start, before);
+  for (label i = 0; i < cells; ++i)
+    store(cellOf_[part.begin + i], before[i]);
+}
+
+template <int width>
+void conservativeDiffusion::sample(FieldBundle<width>& fields, int used, const touchedCells& touched, int rings) {
+  std::vector<bool> wanted(parts_.size(), false);
+  if (!series_.empty())
+    touched.forCells(rings, [&](label cell) { wanted[partOf_[cell]] = true; });
+  for (std::size_t p = 0; p < parts_.size(); ++p)
+    if (wanted[p] || parts_[p].acrossRanks)
+      apply<width>(
+          parts_[p], used, [&](label cell) { return fields[cell]; },
+          [&](label cell, const Bundled<width>& result) { fields[cell] = result; });
 }
 
 template <int width> void conservativeDiffusion::spread(FieldBundle<width>& amounts, int used) {
   const scalarField& volume = mesh_.V();
-  for (std::size_t cell = 0; cell < amounts.size(); ++cell)
-    amounts[cell].at /= volume[cell];
-  sample(amounts, used);
-  for (std::size_t cell = 0; cell < amounts.size(); ++cell)
-    amounts[cell].at *= volume[cell];
+  const auto carries = [&](label cell) {
+    for (int k = 0; k < used; ++k)
+      if (amounts[cell].at[k] != 0)
+        return true;
+    return false;
+  };
+  for (const Part& part : parts_)
+    if (part.acrossRanks || std::any_of(cellOf_.begin() + part.begin, cellOf_.begin() + part.end, carries))
+      apply<width>(
+          part, used, [&](label cell) { return Bundled<width>{amounts[cell].at / volume[cell]}; },
+          [&](label cell, const Bundled<width>& result) { amounts[cell].at = result.at * volume[cell]; });
 }
 
 template void conservativeDiffusion::spread(FieldBundle<kNarrow>&, int);
 template void conservativeDiffusion::spread(FieldBundle<kWide>&, int);
-template void conservativeDiffusion::sample(FieldBundle<kNarrow>&, int);
-template void conservativeDiffusion::sample(FieldBundle<kWide>&, int);
+template void conservativeDiffusion::sample(FieldBundle<kNarrow>&, int, const touchedCells&, int);
+template void conservativeDiffusion::sample(FieldBundle<kWide>&, int, const touchedCells&, int);
 
 } // namespace eccentra::exchange

@@ -69,7 +69,7 @@ unsigned flowAtPoints::offered() {
 }
 
 flowAtPoints::flowAtPoints(const fvMesh& mesh, const FlowFields& flow, unsigned asked, double fractionFloor,
-                           double minFraction, const flowReading* reading)
+                           double minFraction, flowReading* reading, const touchedCells* touched)
     : mesh_(mesh), asked_(asked & offered()), fractionFloor_(fractionFloor), minFraction_(minFraction),
       fraction_(asked & (link::kVelocity | link::kFraction) ? flow.fraction : nullptr) {
   if (needsGradU(asked))
@@ -81,8 +81,8 @@ flowAtPoints::flowAtPoints(const fvMesh& mesh, const FlowFields& flow, unsigned 
   if (fraction_)
     gradFraction_ = fvc::grad(*fraction_);
   if (reading && (flux_.valid() || fraction_))
-    readable_ = reading->readable(flux_.valid() ? &flux_() : nullptr, gradFlux_.valid() ? &gradFlux_() : nullptr,
-                                  fraction_, gradFraction_.valid() ? &gradFraction_() : nullptr);
+    readable_ = &reading->readable(flux_.valid() ? &flux_() : nullptr, gradFlux_.valid() ? &gradFlux_() : nullptr,
+                                   fraction_, gradFraction_.valid() ? &gradFraction_() : nullptr, *touched);
 }
 
 flowAtPoints::Place flowAtPoints::placeOf(const ParticlePoint& centre, const PointShares* shares) const {
@@ -90,8 +90,8 @@ flowAtPoints::Place flowAtPoints::placeOf(const ParticlePoint& centre, const Poi
   const point x(centre.at.position[0], centre.at.position[1], centre.at.position[2]);
   const vector fromCentre(centre.outside ? vector(Zero) : x - mesh_.cellCentres()[cell]);
   Bundled<kNarrow> read{};
-  if (shares && !readable_.cells.empty())
-    vertexSharing::read(*shares, readable_, read);
+  if (shares && readable_)
+    vertexSharing::read(*shares, *readable_, read);
   Place place{cell, Zero, 1};
   if (fraction_)
     place.fraction =

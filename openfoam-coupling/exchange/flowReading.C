@@ -27,32 +27,24 @@ struct Slopes {
   }
 };
 
-std::vector<Slopes> slopesOf(label cells, const volTensorField* vectors, const volVectorField* scalars) {
-  std::vector<Slopes> slopes(cells, Slopes{});
-  for (label cell = 0; cell < cells; ++cell)
-    for (int i = 0; i < 3; ++i) {
-      for (int k = 0; vectors && k < 3; ++k)
-        slopes[cell].along[i].at[k] = (*vectors)[cell][3 * i + k];
-      if (scalars)
-        slopes[cell].along[i].at[flowReading::kScalar] = (*scalars)[cell][i];
-    }
+Slopes slopesOf(label cell, const volTensorField* vectors, const volVectorField* scalars) {
+  Slopes slopes{};
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; vectors && k < 3; ++k)
+      slopes.along[i].at[k] = (*vectors)[cell][3 * i + k];
+    if (scalars)
+      slopes.along[i].at[flowReading::kScalar] = (*scalars)[cell][i];
+  }
   return slopes;
 }
 
-FieldBundle<kNarrow> meansOf(label cells, const volVectorField* vectors, const volScalarField* scalars) {
-  FieldBundle<kNarrow> means(cells, Bundled<kNarrow>{});
-  for (label cell = 0; cell < cells; ++cell) {
-    for (int k = 0; vectors && k < 3; ++k)
-      means[cell].at[k] = (*vectors)[cell][k];
-    if (scalars)
-      means[cell].at[flowReading::kScalar] = (*scalars)[cell];
-  }
-  return means;
-}
-
-void add(const FieldBundle<kNarrow>& more, FieldBundle<kNarrow>& fields) {
-  for (std::size_t i = 0; i < fields.size(); ++i)
-    fields[i].at += more[i].at;
+Bundled<kNarrow> meanOf(label cell, const volVectorField* vectors, const volScalarField* scalars) {
+  Bundled<kNarrow> mean{};
+  for (int k = 0; vectors && k < 3; ++k)
+    mean.at[k] = (*vectors)[cell][k];
+  if (scalars)
+    mean.at[flowReading::kScalar] = (*scalars)[cell];
+  return mean;
 }
 
 } // namespace
@@ -69,35 +61,39 @@ flowReading::flowReading(const fvMesh& mesh, const vertexSharing& sharing)
   syncTools::syncPointList(mesh, vertexOffset_, plusEqOp<vector>(), vector::zero);
 }
 
-SharedFields<kNarrow> flowReading::readable(const volVectorField* vectors, const volTensorField* gradVectors,
-                                            const volScalarField* scalars, const volVectorField* gradScalars) const {
-  const label cells = mesh_.nCells();
-  const FieldBundle<kNarrow> means = meansOf(cells, vectors, scalars);
-  const std::vector<Slopes> slopes = slopesOf(cells, gradVectors, gradScalars);
+const SharedFields<kNarrow>& flowReading::readable(const volVectorField* vectors, const volTensorField* gradVectors,
+                                                   const volScalarField* scalars, const volVectorField* gradScalars,
+                                                   const touchedCells& touched) {
+  // Each use of neighbours needs values of one more ring of cells.
+  static_assert(kRepetitions + 1 <= touchedCells::kRings, "the rings must reach as far as the repetitions");
 
   // What a linear field is at a vertex beyond the mean of its cells, and about a cell beyond its centre.
-  SharedFields<kNarrow> flow = sharing_.empty<kNarrow>();
-  for (label cell = 0; cell < cells; ++cell) {
+  sharing_.clear(flow_, touched, kRepetitions + 1);
+  touched.forCells(kRepetitions + 1, [&](label cell) {
+    const Slopes slopes = slopesOf(cell, gradVectors, gradScalars);
     sharing_.forVertices(cell, [&](label vertex, double weight) {
-      flow.vertices[vertex].at += weight * slopes[cell].over(vertexOffset_[vertex]).at;
+      flow_.vertices[vertex].at += weight * slopes.over(vertexOffset_[vertex]).at;
     });
-    flow.aroundCells[cell].at = -double(sharing_.vertexCount(cell)) * slopes[cell].over(cellOffset_[cell]).at;
-  }
-  flow.cells = means;
-  sharing_.makeReadable(flow);
+    flow_.aroundCells[cell].at = -double(sharing_.vertexCount(cell)) * slopes.over(cellOffset_[cell]).at;
+    flow_.cells[cell] = meanOf(cell, vectors, scalars);
+  });
+  sharing_.makeReadable(flow_, touched, kRepetitions);
 
-  for (int repetition = 0; repetition < kRepetitions; ++repetition) {
+  for (int rings = kRepetitions - 1; rings >= 0; --rings) {
     // All is linear in the coefficients: the change of them brings that of the rest.
-    SharedFields<kNarrow> change = sharing_.empty<kNarrow>();
-    for (label cell = 0; cell < cells; ++cell)
-      change.cells[cell].at =
-          means[cell].at + kPartOfMean * (flow.cells[cell].at - flow.aroundCells[cell].at) - flow.cells[cell].at;
-    sharing_.makeReadable(change);
-    add(change.cells, flow.cells);
-    add(change.aroundCells, flow.aroundCells);
-    add(change.vertices, flow.vertices);
+    sharing_.clear(change_, touched, rings + 1);
+    touched.forCells(rings + 1, [&](label cell) {
+      change_.cells[cell].at = meanOf(cell, vectors, scalars).at +
+                               kPartOfMean * (flow_.cells[cell].at - flow_.aroundCells[cell].at) - flow_.cells[cell].at;
+    });
+    sharing_.makeReadable(change_, touched, rings);
+    touched.forCells(rings + 1, [&](label cell) {
+      flow_.cells[cell].at += change_.cells[cell].at;
+      flow_.aroundCells[cell].at += change_.aroundCells[cell].at;
+    });
+    touched.forVertices(rings + 1, [&](label vertex) { flow_.vertices[vertex].at += change_.vertices[vertex].at; });
   }
-  return flow;
+  return flow_;
 }
 
 } // namespace eccentra::exchange

@@ -57,6 +57,7 @@ particleExchange::particleExchange(const fvMesh& mesh, const ExchangeSettings& s
         std::make_unique<conservativeDiffusion>(mesh, settings.length, settings.diffusionSteps, settings.tolerance);
     sharing_ = std::make_unique<vertexSharing>(mesh);
     reading_ = std::make_unique<flowReading>(mesh, *sharing_);
+    touched_ = std::make_unique<touchedCells>(mesh);
   }
 }
 
@@ -67,7 +68,7 @@ std::vector<scalarField*> particleExchange::memory() {
   return fields;
 }
 
-FieldBundle<kWide> particleExchange::gather() const {
+void particleExchange::gather() {
   const std::vector<ParticlePoint>& here = particlePoints_.here();
   const auto amountsOf = [](const ParticlePoint& particlePoint) {
     Bundled<kWide> amounts{};
@@ -77,30 +78,28 @@ FieldBundle<kWide> particleExchange::gather() const {
     amounts.at[kDrag] = particlePoint.drag;
     return amounts;
   };
+  wide_.cells.assign(mesh_.nCells(), Bundled<kWide>{});
   if (!sharing_) {
-    FieldBundle<kWide> cells(mesh_.nCells(), Bundled<kWide>{});
     for (const ParticlePoint& particlePoint : here)
-      cells[particlePoint.at.cell].at += amountsOf(particlePoint).at;
-    return cells;
+      wide_.cells[particlePoint.at.cell].at += amountsOf(particlePoint).at;
+    return;
   }
-  SharedFields<kWide> shared = sharing_->empty<kWide>();
+  sharing_->clear(wide_, *touched_, 1);
   for (std::size_t g = 0; g < here.size(); ++g)
-    vertexSharing::put(shares_[g], amountsOf(here[g]), shared);
-  sharing_->collect(shared);
-  return std::move(shared.cells);
+    vertexSharing::put(shares_[g], amountsOf(here[g]), wide_);
+  sharing_->collect(wide_, *touched_, 0);
 }
 
-void particleExchange::soften(FieldBundle<kWide>& amounts) const {
+void particleExchange::soften() {
   if (!sharing_)
     return;
-  SharedFields<kWide> shared = sharing_->empty<kWide>();
-  shared.aroundCells = amounts;
-  sharing_->collect(shared);
-  for (std::size_t cell = 0; cell < amounts.size(); ++cell) {
-    const double volume = amounts[cell].at[kVolume];
-    amounts[cell] = shared.cells[cell];
-    amounts[cell].at[kVolume] = volume;
-  }
+  std::vector<Bundled<kWide>> unchanged;
+  touched_->forCells(1, [&](label cell) { unchanged.push_back(wide_.cells[cell]); });
+  sharing_->clear(wide_, *touched_, 2);
+  std::size_t next = 0;
+  touched_->forCells(1, [&](label cell) { wide_.aroundCells[cell] = unchanged[next++]; });
+  sharing_->collect(wide_, *touched_, 1);
+  touched_->forCells(2, [&](label cell) { wide_.cells[cell].at[kVolume] = wide_.aroundCells[cell].at[kVolume]; });
 }
 
 void particleExchange::locate(const link::ParticleArrays& particles) {
@@ -114,11 +113,17 @@ void particleExchange::deposit(const link::ParticleArrays& particles, double ela
                                vectorField* force, scalarField* drag) {
   particlePoints_.invite(particles, settings_.method, settings_.length);
   shares_.clear();
-  if (sharing_)
+  if (sharing_) {
     for (const ParticlePoint& particlePoint : particlePoints_.here())
       shares_.push_back(sharing_->sharesOf(particlePoint.at.position, particlePoint.at.cell));
-  FieldBundle<kWide> amounts = gather();
-  soften(amounts);
+    touched_->mark([this](auto visit) {
+      for (const PointShares& shares : shares_)
+        visit(shares.cell);
+    });
+  }
+  gather();
+  soften();
+  FieldBundle<kWide>& amounts = wide_.cells;
   if (diffusion_)
     diffusion_->spread(amounts, kBrought);
   const auto component = [&](int lane) {
@@ -174,23 +179,21 @@ void particleExchange::deposit(const link::ParticleArrays& particles, double ela
   balance_.meshImpulse = threeOf(&sums[6]);
 }
 
-template <int width>
-SharedFields<width> particleExchange::readable(const std::vector<const vectorField*>& fields) const {
-  SharedFields<width> shared;
+template <int width> void particleExchange::makeReadable(const std::vector<const vectorField*>& fields) {
+  SharedFields<width>& readable = shared<width>();
   if (sharing_)
-    shared = sharing_->empty<width>();
-  shared.cells.assign(mesh_.nCells(), Bundled<width>{});
+    sharing_->clear(readable, *touched_, 1);
+  readable.cells.assign(mesh_.nCells(), Bundled<width>{});
   for (std::size_t f = 0; f < fields.size(); ++f)
     for (int k = 0; k < 3; ++k) {
       scalarField component(fields[f]->component(k));
       overflow_.sample(component);
-      forAll(component, cell) shared.cells[cell].at[3 * f + k] = component[cell];
+      forAll(component, cell) readable.cells[cell].at[3 * f + k] = component[cell];
     }
   if (diffusion_)
-    diffusion_->sample(shared.cells, 3 * static_cast<int>(fields.size()));
+    diffusion_->sample(readable.cells, 3 * static_cast<int>(fields.size()), *touched_, 1);
   if (sharing_)
-    sharing_->makeReadable(shared);
-  return shared;
+    sharing_->makeReadable(readable, *touched_, 0);
 }
 
 unsigned particleExchange::offered() {
@@ -245,14 +248,15 @@ void particleExchange::sampleAt(const FlowFields& flow, const AppliedFields& app
   for (const link::FlowQuantity& quantity : link::kFlowQuantities)
     if (samples[quantity.bit])
       asked |= quantity.bit;
-  const flowAtPoints centres(mesh_, flow, asked, settings_.fractionFloor, 1.0 - settings_.maxSolid, reading_.get());
+  const flowAtPoints centres(mesh_, flow, asked, settings_.fractionFloor, 1.0 - settings_.maxSolid, reading_.get(),
+                             touched_.get());
   asked &= flowAtPoints::offered();
   std::vector<const vectorField*> fields;
   for (const link::Quantity quantity : densities)
     fields.push_back(&applied[quantity]);
-  SharedFields<width> shared;
   if (!fields.empty())
-    shared = readable<width>(fields);
+    makeReadable<width>(fields);
+  const SharedFields<width>& readable = shared<width>();
 
   const int perCentre = centres.columns();
   const int perPoint = 3 * static_cast<int>(densities.size());
@@ -265,9 +269,9 @@ void particleExchange::sampleAt(const FlowFields& flow, const AppliedFields& app
     if (perPoint > 0) {
       Bundled<width> values;
       if (shares)
-        vertexSharing::read(*shares, shared, values);
+        vertexSharing::read(*shares, readable, values);
       else
-        values = shared.cells[particlePoint.at.cell];
+        values = readable.cells[particlePoint.at.cell];
       for (int k = 0; k < perPoint; ++k)
         *at++ = particlePoint.weight * values.at[k];
     }

@@ -3,8 +3,9 @@
 // Shares of cells and vertices; vertices on processor and periodic patches are one vertex.
 #include "exchange/vertexSharing.H"
 
+#include "exchange/coupledVertices.H"
+
 #include "cellPointWeight.H"
-#include "globalMeshData.H"
 #include "polyMeshTetDecomposition.H"
 #include "syncTools.H"
 #include "volFields.H"
@@ -28,9 +29,6 @@ template <int width> struct AddPackets {
     for (int k = 0; k < width; ++k)
       sum[k] += other[k];
   }
-};
-struct KeepAsTheyAre {
-  template <class Type> void operator()(const vectorTensorTransform&, const bool, List<Type>&) const {}
 };
 
 } // namespace
@@ -111,52 +109,60 @@ PointShares vertexSharing::sharesOf(const double* position, label cell) const {
   return shares;
 }
 
-template <int width> SharedFields<width> vertexSharing::empty() const {
-  const FieldBundle<width> cells(mesh_.nCells(), Bundled<width>{});
-  return {cells, cells, FieldBundle<width>(mesh_.nPoints(), Bundled<width>{})};
+template <int width>
+void vertexSharing::clear(SharedFields<width>& fields, const touchedCells& touched, int rings) const {
+  fields.cells.resize(mesh_.nCells());
+  fields.aroundCells.resize(mesh_.nCells());
+  fields.vertices.resize(mesh_.nPoints());
+  touched.forCells(rings, [&](label cell) { fields.cells[cell] = fields.aroundCells[cell] = Bundled<width>{}; });
+  touched.forVertices(rings, [&](label vertex) { fields.vertices[vertex] = Bundled<width>{}; });
+  // All of these are summed over the ranks.
+  for (const label vertex : coupledVertices(mesh_))
+    fields.vertices[vertex] = Bundled<width>{};
 }
 
 template <int width> void vertexSharing::addUp(FieldBundle<width>& vertices) const {
-  const globalMeshData& global = mesh_.globalData();
-  const labelList& coupled = global.coupledPatch().meshPoints();
+  const labelList& coupled = coupledVertices(mesh_);
   List<Packet<width>> values(coupled.size());
   forAll(coupled, i) for (int k = 0; k < width; ++k) values[i][k] = vertices[coupled[i]].at[k];
-  globalMeshData::syncData(values, global.globalPointSlaves(), global.globalPointTransformedSlaves(),
-                           global.globalPointSlavesMap(), global.globalTransforms(), AddPackets<width>(),
-                           KeepAsTheyAre());
+  syncCoupledVertices(mesh_, values, AddPackets<width>());
   forAll(coupled, i) for (int k = 0; k < width; ++k) vertices[coupled[i]].at[k] = values[i][k];
 }
 
-template <int width> void vertexSharing::collect(SharedFields<width>& fields) const {
-  for (std::size_t cell = 0; cell < fields.cells.size(); ++cell) {
+template <int width>
+void vertexSharing::collect(SharedFields<width>& fields, const touchedCells& touched, int rings) const {
+  touched.forCells(rings, [&](label cell) {
     const auto part = fields.aroundCells[cell].at / double(begin_[cell + 1] - begin_[cell]);
     for (label k = begin_[cell]; k < begin_[cell + 1]; ++k)
       fields.vertices[vertices_[k]].at += part;
-  }
+  });
   addUp(fields.vertices);
-  for (std::size_t cell = 0; cell < fields.cells.size(); ++cell)
+  touched.forCells(rings + 1, [&](label cell) {
     for (label k = begin_[cell]; k < begin_[cell + 1]; ++k)
       fields.cells[cell].at += weights_[k] * fields.vertices[vertices_[k]].at;
+  });
 }
 
-template <int width> void vertexSharing::makeReadable(SharedFields<width>& fields) const {
-  for (std::size_t cell = 0; cell < fields.cells.size(); ++cell)
+template <int width>
+void vertexSharing::makeReadable(SharedFields<width>& fields, const touchedCells& touched, int rings) const {
+  touched.forCells(rings + 1, [&](label cell) {
     for (label k = begin_[cell]; k < begin_[cell + 1]; ++k)
       fields.vertices[vertices_[k]].at += weights_[k] * fields.cells[cell].at;
+  });
   addUp(fields.vertices);
-  for (std::size_t cell = 0; cell < fields.cells.size(); ++cell) {
+  touched.forCells(rings, [&](label cell) {
     auto sum = fields.aroundCells[cell].at;
     for (label k = begin_[cell]; k < begin_[cell + 1]; ++k)
       sum += fields.vertices[vertices_[k]].at;
     fields.aroundCells[cell].at = sum / double(begin_[cell + 1] - begin_[cell]);
-  }
+  });
 }
 
-template SharedFields<kNarrow> vertexSharing::empty() const;
-template SharedFields<kWide> vertexSharing::empty() const;
-template void vertexSharing::collect(SharedFields<kNarrow>&) const;
-template void vertexSharing::collect(SharedFields<kWide>&) const;
-template void vertexSharing::makeReadable(SharedFields<kNarrow>&) const;
-template void vertexSharing::makeReadable(SharedFields<kWide>&) const;
+template void vertexSharing::clear(SharedFields<kNarrow>&, const touchedCells&, int) const;
+template void vertexSharing::clear(SharedFields<kWide>&, const touchedCells&, int) const;
+template void vertexSharing::collect(SharedFields<kNarrow>&, const touchedCells&, int) const;
+template void vertexSharing::collect(SharedFields<kWide>&, const touchedCells&, int) const;
+template void vertexSharing::makeReadable(SharedFields<kNarrow>&, const touchedCells&, int) const;
+template void vertexSharing::makeReadable(SharedFields<kWide>&, const touchedCells&, int) const;
 
 } // namespace eccentra::exchange

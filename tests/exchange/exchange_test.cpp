@@ -74,10 +74,10 @@ struct Scene {
   }
 
   link::FluidSamples samples() {
-    velocitySample.resize(position.size());
-    pressureSample.resize(position.size());
-    vorticitySample.resize(position.size());
-    fractionSample.resize(position.size());
+    // One row more: a null pointer would say that this rank asks for nothing.
+    for (auto* rows : {&velocitySample, &pressureSample, &vorticitySample})
+      rows->resize(position.size() + 1);
+    fractionSample.resize(position.size() + 1);
     link::FluidSamples view;
     view[link::kVelocity] = reinterpret_cast<double*>(velocitySample.data());
     view[link::kFraction] = fractionSample.data();
@@ -292,6 +292,62 @@ TEST(Exchange, LinearFieldsAreSampledExactly) {
       EXPECT_NEAR(scene.gradientSample[i][k], gradient[k], 1e-7) << k;
   }
   EXPECT_GT(Foam::returnReduce(checked, Foam::sumOp<int>()), 100);
+}
+
+// The exchange works on the cells about the particles alone: what a particle receives and deposits does not depend on
+// others far away, which make it work on all cells.
+TEST(Exchange, OneParticleIsExchangedAsAmongManyFarAway) {
+  const auto u = fieldOf([](const Foam::point& x) {
+    return Foam::vector(std::sin(60 * x.x()), std::cos(50 * x.y()), std::sin(2 * M_PI * x.z() / kLength));
+  });
+  const Foam::vectorField gradient(u().primitiveField() * 1000.0);
+  // Cells of 10 mm along the hole: with 8 mm each layer of cells is by itself, with 19 mm they are coupled.
+  for (const double length : {8e-3, 3 * kDiameter}) {
+    ExchangeSettings settings = settingsOf(VoidFraction::diffusion);
+    settings.length = length;
+    particleExchange exchange(*sharedMesh, settings);
+    std::mt19937 random(5);
+    Scene scenes[3]; // alone, the others, all
+    scenes[0].add(0.001, 0.0335, 0.012, random);
+    for (int k = 0; k < 40; ++k) {
+      const double angle = 0.7 * k, z = 0.0025 * k;
+      scenes[1].add(0.045 * std::cos(angle), 0.045 * std::sin(angle), z, random);
+    }
+    scenes[2] = scenes[0];
+    scenes[2].dealt = ranks(); // each rank keeps its own
+    for (std::size_t i = 0; i < scenes[1].position.size(); ++i) {
+      const Scene& others = scenes[1];
+      scenes[2].position.push_back(others.position[i]);
+      scenes[2].impulse.push_back(others.impulse[i]);
+      scenes[2].extent.push_back(others.extent[i]);
+      scenes[2].volume.push_back(others.volume[i]);
+      scenes[2].drag.push_back(others.drag[i]);
+    }
+    Foam::scalarField solid[3], drag[3];
+    Foam::vectorField force[3];
+    // The largest region first and last: what it leaves behind must not be read.
+    for (const int k : {2, 0, 1, 2}) {
+      exchange.deposit(scenes[k].arrays(), kElapsed, solid[k], &force[k], &drag[k]);
+      FlowFields flow;
+      flow.velocity = &u();
+      flow.density[link::kPressureGradient] = &gradient;
+      exchange.sample(flow, scenes[k].arrays(), scenes[k].samples());
+    }
+    const double largest = Foam::gMax(solid[2]), hardest = Foam::gMax(Foam::mag(force[2])());
+    EXPECT_LT(Foam::gMax(Foam::mag(solid[0] + solid[1] - solid[2])()), 1e-13 * largest);
+    EXPECT_LT(Foam::gMax(Foam::mag(drag[0] + drag[1] - drag[2])()), 1e-13 * Foam::gMax(drag[2]));
+    EXPECT_LT(Foam::gMax(Foam::mag(force[0] + force[1] - force[2])()), 1e-13 * hardest);
+    if (length < 0.01) {
+      const Foam::scalarField z(sharedMesh->C().primitiveField().component(Foam::vector::Z));
+      forAll(z, cell) if (std::abs(z[cell] - 0.012) > 0.031) EXPECT_EQ(solid[0][cell], 0) << z[cell];
+    }
+    for (std::size_t i = 0; i < scenes[0].position.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_EQ(scenes[0].velocitySample[i][k], scenes[2].velocitySample[i][k]);
+        EXPECT_EQ(scenes[0].pressureSample[i][k], scenes[2].pressureSample[i][k]);
+        EXPECT_NE(scenes[0].pressureSample[i][k], 0);
+      }
+  }
 }
 
 // Implicit steps over T in all spread a point with variance 2 T = length^2 / 2 per direction, as long as it meets no
