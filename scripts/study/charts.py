@@ -208,6 +208,28 @@ class Bars:
 
 
 @dataclasses.dataclass
+class Map:
+    """Values over x and y as colours. values: a row of all y for each x."""
+    title: str
+    x: str
+    y: str
+    xs: list
+    ys: list
+    values: list
+
+    def draw(self, axes):
+        half = [(v[-1] - v[0]) / max(1, len(v) - 1) / 2 or 0.5 for v in (self.xs, self.ys)]
+        extent = (self.xs[0] - half[0], self.xs[-1] + half[0], self.ys[0] - half[1], self.ys[-1] + half[1])
+        drawn = axes.imshow(list(zip(*self.values)), origin="lower", aspect="auto", extent=extent, cmap="viridis", vmin=0, interpolation="nearest")
+        axes.set(title=self.title, xlabel=self.x, ylabel=self.y)
+        axes.grid(False)
+        axes.figure.colorbar(drawn, ax=axes)
+
+    def finish(self, axes):
+        """Nothing to place."""
+
+
+@dataclasses.dataclass
 class Bodies:
     """A side view, far bodies first: circles at (x, y, z), `up` the coordinate that points up. view: left, right, low, high. walls: lines
     [(x, ...), (y, ...)] and circles (x, y, radius)."""

@@ -12,8 +12,9 @@ from .programs import CASES, digest_of, run
 CASE = CASES / "tomren-section"
 AREA = math.pi * (0.0635**2 - 0.02413**2)  # of the annulus across the hole [m2]
 DIAMETER = 6.35e-3
+DENSITY = 2619  # of the cuttings [kg/m3]
 BODY_VOLUME = math.pi * DIAMETER**3 / 6
-INJECTED = 0.1512 / 2619  # the paper's injection as a volume flux [m3/s]
+INJECTED = 0.1512 / DENSITY  # the paper's injection as a volume flux [m3/s]
 FLUID_STEP = 5e-3
 # Of where the cuttings are at the start: primes, none that in.cuttings uses for something else.
 SEEDS = (49979687, 67867967, 86028121, 15485867, 32452867, 49979693, 67867979, 86028157, 15485917, 32452883)

@@ -29,7 +29,8 @@ STUDIES = {
     "paper": (["--figures", "10", "--velocities", "1.165"], {
         "--figures": ["7"], "--velocities": ["0.58"], "--rungs": ["0.3"], "--quick": [], "--full": []}, ("--measured",)),
     "full-scene": (["--levels", "S1", "--fillings", "0.5"], {
-        "--levels": ["S1", "C8"], "--fillings": ["0.1"], "--ranks": ["1"], "--quick": []}, ()),
+        "--levels": ["S1", "C8"], "--fillings": ["0.1"], "--ranks": ["1"], "--quick": [], "--run": ["S1"], "--accuracy": [], "--angle": ["40"],
+        "--velocity": ["0.72"], "--rpm": ["0"], "--end": ["30"], "--length": ["6"], "--fluid-step": ["0.01"], "--tolerances": ["tight"]}, ()),
     "compare-rolling": (["--scenes", "slope", "section", "--models", "cluster", "cdt", "--seeds", "1"], {
         "--scenes": ["drum"], "--models": ["off"], "--seeds": ["2"], "--quick": [], "--mu": ["0.5"], "--shape": ["cube 8"], "--cost": []}, ()),
     "effects": ([], {"--scenes": [], "--annulus": [], "--off": [], "--rheology": ["newtonian 0.1"], "--gradient": ["6"], "--steps": ["2000"],
@@ -62,6 +63,7 @@ OF_A_SHAPE = ["--shape", "cube", "--levels", "sphere", "--scene", "OWN_SCENE", "
 STARTS |= {("accuracy-cost", option): OF_A_SHAPE for option in ("--shape", "--scene", "--measure", "--share")}
 STARTS["calibrate-rolling", "--mu-shape"] = [*STUDIES["calibrate-rolling"][0], "--vary", "mu_s"]
 STARTS["full-scene", "--quick"] = ["--levels", "S1"]
+STARTS |= {("full-scene", option): ["--run", "S1"] for option in ("--angle", "--velocity", "--rpm", "--end", "--length", "--fluid-step", "--tolerances")}
 STARTS["rounding", "--quick"] = []
 STARTS["paper", "--quick"] = ["--figures", "7"]
 

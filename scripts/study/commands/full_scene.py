@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the paper's full scene (12 m, 140,000 cells, up to 25,837 bodies, 60 s) would cost: steps are measured, the run is projected."""
+"""The paper's full scene (12 m, 140,000 cells, up to 25,837 bodies, 60 s): what it would cost, from measured steps, or with --run the scene itself."""
 import shutil
 
-from .. import levels, measures, options, programs, runs, section, tables
+from .. import full_study, levels, measures, options, programs, runs, section, tables
 
 LENGTH, CELLS, MOST_BODIES, SECONDS = 12, "12 48 243", 25837, 60  # cells: 139,968
 RESTITUTION = 0.9
@@ -54,7 +54,13 @@ def main():
     parser.add_argument("--fillings", nargs="+", type=float, metavar="SHARE", help="of the bodies (default: those of the study: 0.1, 0.5, 1)")
     parser.add_argument("--ranks", nargs="+", type=int, metavar="N", help="1 or 2 (default: those of the study)")
 
+    full_study.add_options(parser)
+
     def check(words):
+        if words.run or words.accuracy:
+            if words.ranks and (len(words.ranks) > 1 or words.ranks[0] < 1):
+                parser.error("--ranks of a run is one number from 1 on")
+            return
         everything = words.plan_of = SIZES["quick" if words.quick else "standard"]
         for k, (option, wanted) in enumerate((("--levels", words.levels), ("--fillings", words.fillings), ("--ranks", words.ranks))):
             for value in wanted or ():
@@ -63,6 +69,8 @@ def main():
             words.plan_of = [row for row in words.plan_of if not wanted or row[k] in wanted]
 
     words = parser.settle(("eccentra-dem", "annulusMesh", "annulusFoam", "clusterShape"), check)
+    if words.run or words.accuracy:
+        return full_study.main(words)
     known = {level.name: level for body in ("cube", "disk") for level in levels.levels_of(body, {}, "")}
     plan = words.plan_of
     chosen = list(dict.fromkeys(n for n, _, _ in plan))

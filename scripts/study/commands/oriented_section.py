@@ -5,9 +5,8 @@ import math
 import re
 import shutil
 import statistics
-import struct
 
-from .. import charts, options, runs, section, tables
+from .. import charts, options, runs, section, tables, vtp
 from ..programs import run
 
 FORCES = {"sphere": "drag chien pressure_gradient on drag_torque dennis",
@@ -17,19 +16,10 @@ QUANTITIES = {"flux": "solid flux [m3/s]", "gradient": "pressure gradient [Pa/m]
 
 
 def axes_in(path):
-    """The z axis of each body in the world, from a file of dump cluster/vtk: raw data behind an underscore, each array behind its size."""
-    data = path.read_bytes()
-    head, raw = data.split(b'<AppendedData encoding="raw">', 1)
-    raw = raw[raw.index(b"_") + 1:]
-    offsets = {name.decode(): int(offset) for name, offset in re.findall(rb'<DataArray [^>]*Name="([^"]*)"[^>]*offset="(\d+)"', head)}
-
-    def array(name, letter):
-        at = offsets[name]
-        size = struct.unpack_from("<I", raw, at)[0]
-        return struct.unpack_from(f"<{size // 4}{letter}", raw, at + 4)
-    q = array("orientation", "f")
-    return {body: (2 * (q[4 * k + 1] * q[4 * k + 3] + q[4 * k] * q[4 * k + 2]), 2 * (q[4 * k + 2] * q[4 * k + 3] - q[4 * k] * q[4 * k + 1]),
-                   1 - 2 * (q[4 * k + 1] ** 2 + q[4 * k + 2] ** 2)) for k, body in enumerate(array("body", "i"))}
+    """The z axis of each body in the world, from a file of dump cluster/vtk."""
+    arrays = vtp.arrays_of(path)
+    return {int(body): (2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y))
+            for body, (w, x, y, z) in zip(arrays["body"], arrays["orientation"].tolist())}
 
 
 def attitude(case, share):
