@@ -41,6 +41,19 @@ foreach(_kind surface normal tangential cohesion rolling)
 endforeach()
 file(CONFIGURE OUTPUT "${_generated}/style_contact_model.h" CONTENT "" @ONLY)
 
+# A LIGGGHTS that was built from source has such lists beside contact_models.h, which would find those first: its headers without them.
+set(_headers "${LIGGGHTS_INCLUDE_DIR}")
+if(ECCENTRA_LIGGGHTS_DIR)
+  set(_headers "${PROJECT_BINARY_DIR}/generated/liggghts-headers")
+  file(REMOVE_RECURSE "${_headers}")
+  file(MAKE_DIRECTORY "${_headers}")
+  file(GLOB _names RELATIVE "${LIGGGHTS_INCLUDE_DIR}" "${LIGGGHTS_INCLUDE_DIR}/*.h")
+  list(FILTER _names EXCLUDE REGEX "^style_[a-z]+_model\\.h$")
+  foreach(_name IN LISTS _names)
+    file(CREATE_LINK "${LIGGGHTS_INCLUDE_DIR}/${_name}" "${_headers}/${_name}" SYMBOLIC)
+  endforeach()
+endif()
+
 # The version that we build against: the guard in styles/entry/ compares it with the one that loads us.
 execute_process(COMMAND ${CMAKE_COMMAND} -E env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
     ${LIGGGHTS_EXECUTABLE} -in /dev/null -log none
@@ -52,7 +65,7 @@ set(LIGGGHTS_VERSION "${CMAKE_MATCH_1}")
 message(STATUS "LIGGGHTS ${LIGGGHTS_VERSION} at ${LIGGGHTS_LIBRARY}")
 
 add_library(liggghts_host INTERFACE)
-target_include_directories(liggghts_host SYSTEM INTERFACE "${_generated}" "${LIGGGHTS_INCLUDE_DIR}")
+target_include_directories(liggghts_host SYSTEM INTERFACE "${_generated}" "${_headers}")
 target_compile_definitions(liggghts_host INTERFACE OMPI_SKIP_MPICXX ECCENTRA_LIGGGHTS_VERSION="${LIGGGHTS_VERSION}")
 # Superquadrics, which the makefile of LIGGGHTS has switched on and Debian has not, add members to the structures of contacts.
 execute_process(COMMAND "${CMAKE_NM}" -D --defined-only "${LIGGGHTS_LIBRARY}" OUTPUT_VARIABLE _symbols RESULT_VARIABLE _unread)
