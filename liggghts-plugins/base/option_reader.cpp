@@ -26,16 +26,32 @@ std::optional<double> finite_number(const std::string& text) {
   return value;
 }
 
+std::optional<bool> switch_value(const std::string& text) {
+  if (text == "on" || text == "yes")
+    return true;
+  if (text == "off" || text == "no" || text == "none")
+    return false;
+  return std::nullopt;
+}
+
 void OptionReader::unknown(const std::string& known) const {
   refuse("unknown keyword '{}'; expected one of {}", keyword_, known);
 }
 
 const std::string& OptionReader::value(const std::string& expected) {
+  if (arguments_.empty())
+    refuse("the line ends too early; expected {}", expected);
   if (!more() && at_ > 0 && arguments_[at_ - 1] != keyword_)
     refuse("keyword '{}': the line ends after '{}'; expected {}", keyword_, arguments_[at_ - 1], expected);
   if (!more())
     refuse("keyword '{}' is the last word; expected {} after it", keyword_, expected);
   return arguments_[at_++];
+}
+
+void OptionReader::expect(const std::string& word) {
+  if (const std::string& text = value("'" + word + "'"); text != word)
+    refuse("keyword '{}': '{}' is not '{}'; expected {} there", keyword_, text, word, word);
+  keyword_ = word;
 }
 
 double OptionReader::number(const std::string& expected) {
@@ -88,11 +104,10 @@ int OptionReader::count(int low, const std::string& unit) {
 
 bool OptionReader::on_off() {
   const std::string& text = value("on or off");
-  if (text == "on" || text == "yes")
-    return true;
-  if (text != "off" && text != "no" && text != "none")
+  const std::optional<bool> read = switch_value(text);
+  if (!read)
     refuse("keyword '{}': '{}' is neither on nor off; expected on or off", keyword_, text);
-  return false;
+  return *read;
 }
 
 const std::string& OptionReader::choice(std::initializer_list<const char*> names) {

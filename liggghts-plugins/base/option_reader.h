@@ -13,6 +13,9 @@ namespace eccentra::base {
 /// The finite number that the whole text represents, in any locale; nothing for any other text (nan, inf, "1m").
 std::optional<double> finite_number(const std::string& text);
 
+/// on, yes: true; off, no, none: false; nothing for any other text.
+std::optional<bool> switch_value(const std::string& text);
+
 /// A value belongs to the keyword that was read last. Functions that read throw std::invalid_argument (base/refusal.h)
 /// with a sentence that names keyword, value and expectation, also if the arguments end too early.
 class OptionReader {
@@ -29,11 +32,15 @@ class OptionReader {
 
   /// Reads a keyword, which later refusals name. Requires more().
   const std::string& keyword() { return keyword_ = arguments_[at_++]; }
+  /// The same; refuses a line that ends here. `expected` describes the keyword, as in "a primitive wall".
+  const std::string& keyword(const std::string& expected) { return keyword_ = value(expected); }
   /// Refuses the keyword that was read last; `known` lists the valid ones.
   [[noreturn]] void unknown(const std::string& known) const;
 
   /// Reads one value; `expected` describes it for a refusal, as in "a file name".
   const std::string& value(const std::string& expected);
+  /// Reads this keyword and no other.
+  void expect(const std::string& word);
   double number(const std::string& expected = "a finite number");
   double positive(const std::string& name = "");
   double at_least(double low, const std::string& name = "");
@@ -41,7 +48,7 @@ class OptionReader {
   double between(double low, double high, const std::string& name = "");
   /// A whole number of at least `low`.
   int count(int low, const std::string& unit = "");
-  /// on, yes: true; off, no, none: false.
+  /// A value that switch_value() knows.
   bool on_off();
   /// One of `names`.
   const std::string& choice(std::initializer_list<const char*> names);

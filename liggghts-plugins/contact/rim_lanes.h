@@ -66,18 +66,27 @@ class RimLanes {
   void on_polyhedra(const std::vector<const ContactCore*>& solid);
 
  private:
+  /// Rows by the letters of the loops, and the number of lanes in whole vectors.
+  struct Columns {
+    const double *x, *y, *z, *a0, *a1, *a2, *o0, *o1, *o2, *h0, *h1, *h2;
+    double *u, *v, *w, *d, *s, *r, *c, *g;
+    int n;
+  };
+  Columns columns() {
+    return {rows_.row(px),       rows_.row(py),     rows_.row(pz),
+            rows_.row(ax),       rows_.row(ay),     rows_.row(az),
+            rows_.row(ox),       rows_.row(oy),     rows_.row(oz),
+            rows_.row(hx),       rows_.row(hy),     rows_.row(hz),
+            rows_.row(nx),       rows_.row(ny),     rows_.row(nz),
+            rows_.row(distance), rows_.row(slope),  rows_.row(rise),
+            rows_.row(rate),     rows_.row(region), (count + lane_width - 1) / lane_width * lane_width};
+  }
+
   LaneRows<row_count> rows_;
 };
 
 inline void RimLanes::on_disks() {
-  if (count == 0)
-    return;
-  const double *x = rows_.row(px), *y = rows_.row(py), *z = rows_.row(pz), *a0 = rows_.row(ax), *a1 = rows_.row(ay),
-               *a2 = rows_.row(az), *o0 = rows_.row(ox), *o1 = rows_.row(oy), *o2 = rows_.row(oz), *h0 = rows_.row(hx),
-               *h2 = rows_.row(hz);
-  double *u = rows_.row(nx), *v = rows_.row(ny), *w = rows_.row(nz), *d = rows_.row(distance), *s = rows_.row(slope),
-         *r = rows_.row(rise), *c = rows_.row(rate), *g = rows_.row(region);
-  const int n = (count + lane_width - 1) / lane_width * lane_width;
+  const auto [x, y, z, a0, a1, a2, o0, o1, o2, h0, h1, h2, u, v, w, d, s, r, c, g, n] = columns();
 #pragma GCC ivdep
   for (int k = 0; k < n; ++k) {
     const double square_rho = x[k] * x[k] + y[k] * y[k], rho = std::sqrt(square_rho);
@@ -107,14 +116,7 @@ inline void RimLanes::on_disks() {
 }
 
 inline void RimLanes::on_boxes() {
-  if (count == 0)
-    return;
-  const double *x = rows_.row(px), *y = rows_.row(py), *z = rows_.row(pz), *a0 = rows_.row(ax), *a1 = rows_.row(ay),
-               *a2 = rows_.row(az), *o0 = rows_.row(ox), *o1 = rows_.row(oy), *o2 = rows_.row(oz), *h0 = rows_.row(hx),
-               *h1 = rows_.row(hy), *h2 = rows_.row(hz);
-  double *u = rows_.row(nx), *v = rows_.row(ny), *w = rows_.row(nz), *d = rows_.row(distance), *s = rows_.row(slope),
-         *r = rows_.row(rise), *c = rows_.row(rate), *g = rows_.row(region);
-  const int n = (count + lane_width - 1) / lane_width * lane_width;
+  const auto [x, y, z, a0, a1, a2, o0, o1, o2, h0, h1, h2, u, v, w, d, s, r, c, g, n] = columns();
 #pragma GCC ivdep
   for (int k = 0; k < n; ++k) {
     const double gx = std::fabs(x[k]) - h0[k], gy = std::fabs(y[k]) - h1[k], gz = std::fabs(z[k]) - h2[k];

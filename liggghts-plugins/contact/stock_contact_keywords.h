@@ -3,6 +3,9 @@
 // Keywords of stock's contact models and walls that mean nothing to ours: refused, or taken where they ask for nothing.
 #pragma once
 
+#include "base/option_reader.h"
+#include "base/refusal.h"
+
 #include <map>
 #include <string>
 
@@ -10,7 +13,7 @@ namespace eccentra::contact {
 
 /// What becomes of one keyword of stock's pair gran or wall/gran.
 struct StockContactKeyword {
-  const char* nothing; ///< the value that asks for nothing and is taken; null: none
+  const char* nothing; ///< as stock writes the value that asks for nothing and is taken; null: none
   const char* remedy;  ///< for any other value
 };
 
@@ -44,13 +47,13 @@ inline bool is_switch_of_a_model(const std::string& keyword) {
   return false;
 }
 
-/// Empty where `value` of a stock keyword asks for nothing, else the end of a sentence after the name of the style.
-inline std::string refused_stock_keyword(const std::string& keyword, const std::string& value) {
+/// Throws std::invalid_argument unless `value` of a keyword of stock asks for nothing.
+inline void refuse_stock_keyword(const std::string& keyword, const std::string& value) {
   const StockContactKeyword& known = stock_contact_keywords().at(keyword);
-  if (known.nothing && value == known.nothing)
-    return {};
-  return keyword + " '" + value + "' of stock's contact models is not offered: " + known.remedy + "; expected " +
-         keyword + (known.nothing ? " " + std::string(known.nothing) + ", or nothing" : " left out");
+  if (known.nothing && !base::switch_value(value).value_or(true))
+    return;
+  base::refuse("keyword '{}': '{}' of stock's contact models is not offered: {}; expected {}{}", keyword, value,
+               known.remedy, keyword, known.nothing ? " " + std::string(known.nothing) + ", or nothing" : " left out");
 }
 
 } // namespace eccentra::contact

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shapes `cube N`: lattices of n x n x n spheres.
+#include "base/refusal.h"
 #include "shape/shape_family.h"
 #include "shape/shape_keywords.h"
 
 #include <cmath>
-#include <stdexcept>
 
 namespace eccentra::shape {
 namespace {
@@ -16,21 +16,18 @@ constexpr double kRatio8 = 0.97403, kRatio27 = 0.99674, kRatio64 = 1.02872;
 /// Spheres along an edge of the largest cube.
 constexpr int kMaxEdge = 16;
 
-ClusterShape make(const ShapeRequest& request, std::size_t& used, Notes&) {
-  const long count = request.count();
-  const int edge = static_cast<int>(std::lround(std::cbrt(static_cast<double>(count))));
-  if (edge < 1 || edge > kMaxEdge || static_cast<long>(edge) * edge * edge != count)
-    throw std::invalid_argument("shape cube " + std::to_string(count) +
-                                " does not exist: choose n^3 from 8, 27, 64 to " +
-                                std::to_string(kMaxEdge * kMaxEdge * kMaxEdge));
+ClusterShape make(base::OptionReader& words, double diameter, Notes&) {
+  const int count = words.count(1, "spheres"), edge = static_cast<int>(std::lround(std::cbrt(count)));
+  if (edge < 1 || edge > kMaxEdge || edge * edge * edge != count)
+    base::refuse("shape 'cube {}' does not exist; expected n^3: 8, 27, 64 to {}", count,
+                 kMaxEdge * kMaxEdge * kMaxEdge);
   const double ratio = edge <= 2 ? kRatio8 : edge == 3 ? kRatio27 : kRatio64, middle = (edge - 1) / 2.0;
   std::vector<Sphere> spheres;
   for (int i = 0; i < edge; ++i)
     for (int j = 0; j < edge; ++j)
       for (int k = 0; k < edge; ++k)
         spheres.push_back({Eigen::Vector3d(i - middle, j - middle, k - middle), ratio});
-  used = 2;
-  return sized_shape("cube " + std::to_string(count), std::move(spheres), request.diameter);
+  return sized_shape("cube " + std::to_string(count), std::move(spheres), diameter);
 }
 
 } // namespace

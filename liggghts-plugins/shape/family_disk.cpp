@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shapes `disk N`: one layer of rings of spheres about the z axis.
+#include "base/refusal.h"
 #include "shape/shape_family.h"
 #include "shape/shape_keywords.h"
 
 #include <cmath>
-#include <stdexcept>
 
 namespace eccentra::shape {
 namespace {
@@ -41,7 +41,7 @@ std::vector<Sphere> rings(const std::vector<Ring>& layout, double ratio) {
   return spheres;
 }
 
-std::vector<Sphere> spheres_of(long count) {
+std::vector<Sphere> spheres_of(int count) {
   switch (count) {
   case 7:
     return rings({{1, 0}, {6, 1}}, kRatio7);
@@ -50,14 +50,12 @@ std::vector<Sphere> spheres_of(long count) {
   case 48:
     return rings({{8, 1 / 3.0}, {16, 2 / 3.0}, {24, 1}}, kRatio48);
   }
-  throw std::invalid_argument("shape disk " + std::to_string(count) + " does not exist: choose 7, 19 or 48");
+  base::refuse("shape 'disk {}' does not exist; expected 7, 19 or 48", count);
 }
 
-ClusterShape make(const ShapeRequest& request, std::size_t& used, Notes&) {
-  const long count = request.count();
-  std::vector<Sphere> spheres = spheres_of(count);
-  used = 2;
-  return sized_shape("disk " + std::to_string(count), std::move(spheres), request.diameter);
+ClusterShape make(base::OptionReader& words, double diameter, Notes&) {
+  const int count = words.count(1, "spheres");
+  return sized_shape("disk " + std::to_string(count), spheres_of(count), diameter);
 }
 
 } // namespace

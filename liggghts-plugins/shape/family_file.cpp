@@ -7,27 +7,23 @@
 #include "shape/shape_keywords.h"
 #include "shape/union_geometry.h"
 
-#include <cmath>
-
 namespace eccentra::shape {
 namespace {
 
-ClusterShape make(const ShapeRequest& request, std::size_t& used, Notes& notes) {
-  const std::string& path = request.word(1, "the name of a .clump file after 'file'");
-  double scale = 1;
-  used = 2;
-  const std::size_t next = request.first + used;
-  if (next < request.arguments.size() && request.arguments[next] == "scale") {
-    scale = positive_number(request.word(3, "a number after 'scale'"), "scale of '" + path + "'");
-    used = 4;
+ClusterShape make(base::OptionReader& words, double diameter, Notes& notes) {
+  const std::string path = words.value("the name of a .clump file");
+  double scale = 0; // not given
+  if (words.more() && words.peek() == "scale") {
+    words.keyword();
+    scale = words.positive();
   }
   const std::string where = "clump file '" + path + "'";
   Clump clump = read_clump(path);
   merge_coincident(clump.spheres, where, notes);
   require_connected(clump.spheres);
   MassProperties p = clump.chosen ? *clump.chosen : measure_union(clump.spheres).properties;
-  resize(clump.spheres, p, request.diameter > 0 ? scale_to_diameter(p.volume, request.diameter) : scale);
-  if (request.diameter <= 0 && used == 2)
+  resize(clump.spheres, p, diameter > 0 ? scale_to_diameter(p.volume, diameter) : scale > 0 ? scale : 1);
+  if (diameter <= 0 && scale == 0)
     note_size(clump.spheres, where, notes);
   return ClusterShape(path, std::move(clump.spheres), p);
 }

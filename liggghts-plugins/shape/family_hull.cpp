@@ -8,13 +8,9 @@
 namespace eccentra::shape {
 namespace {
 
-ClusterShape make(const ShapeRequest& request, std::size_t& used, Notes& notes) {
-  base::OptionReader reader(
-      {request.arguments.begin() + static_cast<std::ptrdiff_t>(request.first), request.arguments.end()});
-  reader.keyword();
-  const std::string path = reader.value("the name of an STL file"), name = "hull " + path;
-  const RoundedOptions options = read_rounded_options(reader, name, true);
-  used = reader.at();
+ClusterShape make(base::OptionReader& words, double diameter, Notes& notes) {
+  const std::string path = words.value("the name of an STL file"), name = "hull " + path;
+  const RoundedOptions options = read_rounded_options(words, name, true);
   if (!hull_reader())
     base::refuse("shape {}: STL files are not read here, because this program has no reader of them; expected "
                  "eccentra-dem, liggghts with libeccentra, or clusterShape",
@@ -22,7 +18,7 @@ ClusterShape make(const ShapeRequest& request, std::size_t& used, Notes& notes) 
   const HullOfFile file = hull_reader()(path, options.scale > 0 ? options.scale : 1);
   if (!file.remark.empty())
     notes.push_back({file.remark});
-  return make_rounded(form_of_core(name, file.core), options, request.diameter);
+  return make_rounded(form_of_core(name, file.core), options, diameter);
 }
 
 } // namespace

@@ -62,17 +62,12 @@ constexpr struct {
   RoundedForm (*form)(base::OptionReader& reader);
 } forms[] = {{"cube", cube}, {"box", box}, {"disk", disk}};
 
-ClusterShape make(const ShapeRequest& request, std::size_t& used, Notes&) {
-  base::OptionReader reader(
-      {request.arguments.begin() + static_cast<std::ptrdiff_t>(request.first), request.arguments.end()});
-  reader.keyword();
-  const std::string& kind = reader.value("cube, box or disk");
+ClusterShape make(base::OptionReader& words, double diameter, Notes&) {
+  const std::string& kind = words.value("cube, box or disk");
   for (const auto& known : forms)
     if (kind == known.name) {
-      const RoundedForm form = known.form(reader);
-      const RoundedOptions options = read_rounded_options(reader, form.name, false);
-      used = reader.at();
-      return make_rounded(form, options, request.diameter);
+      const RoundedForm form = known.form(words);
+      return make_rounded(form, read_rounded_options(words, form.name, false), diameter);
     }
   base::refuse("keyword 'smooth': '{}' is unknown; expected cube, box or disk", kind);
 }

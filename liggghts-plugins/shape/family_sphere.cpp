@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shapes `sphere 1` and `sphere 6`.
+#include "base/refusal.h"
 #include "shape/shape_family.h"
 #include "shape/shape_keywords.h"
-
-#include <stdexcept>
 
 namespace eccentra::shape {
 namespace {
@@ -12,8 +11,8 @@ namespace {
 /// Radius over the centres' distance from the middle: sphericity 0.98 of Akhshik, Behzad & Rajabi (2016), Table 1.
 constexpr double kRatio = 2.604;
 
-ClusterShape make(const ShapeRequest& request, std::size_t& used, Notes&) {
-  const long count = request.count();
+ClusterShape make(base::OptionReader& words, double diameter, Notes&) {
+  const int count = words.count(1, "spheres");
   std::vector<Sphere> spheres;
   if (count == 1)
     spheres.push_back({Eigen::Vector3d::Zero(), 1});
@@ -22,9 +21,8 @@ ClusterShape make(const ShapeRequest& request, std::size_t& used, Notes&) {
       for (double side : {-1.0, 1.0})
         spheres.push_back({side * Eigen::Vector3d::Unit(axis), kRatio});
   else
-    throw std::invalid_argument("shape sphere " + std::to_string(count) + " does not exist: choose 1 or 6");
-  used = 2;
-  return sized_shape("sphere " + std::to_string(count), std::move(spheres), request.diameter);
+    base::refuse("shape 'sphere {}' does not exist; expected 1 or 6", count);
+  return sized_shape("sphere " + std::to_string(count), std::move(spheres), diameter);
 }
 
 } // namespace

@@ -3,10 +3,7 @@
 // The table of families: those of this folder, which CMake finds by the names of their files, and those added.
 #include "shape/shape_family.h"
 
-#include "shape/shape_keywords.h"
-
-#include <algorithm>
-#include <stdexcept>
+#include "base/refusal.h"
 
 namespace eccentra::shape {
 
@@ -28,15 +25,6 @@ const ShapeFamily* find(const std::string& name) {
 
 } // namespace
 
-const std::string& ShapeRequest::word(std::size_t k, const std::string& need) const {
-  return word_at(arguments, first + k, need);
-}
-
-long ShapeRequest::count() const {
-  const std::string& name = arguments[first];
-  return whole_number(word(1, "the number of spheres after '" + name + "'"), "number of spheres of shape " + name);
-}
-
 const std::vector<ShapeFamily>& shape_families() {
   return table();
 }
@@ -52,7 +40,7 @@ const ShapeFamily& shape_family(const std::string& name) {
   std::string known;
   for (const ShapeFamily& family : table())
     known += (known.empty() ? "" : ", ") + family.name;
-  throw std::invalid_argument("shape '" + name + "' is not known; expected one of " + known);
+  base::refuse("shape '{}' is not known; expected one of {}", name, known);
 }
 
 bool has_own_size(const std::string& name) {

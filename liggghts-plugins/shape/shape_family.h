@@ -3,6 +3,7 @@
 // The table of families of shapes. Nothing else lists families.
 #pragma once
 
+#include "base/option_reader.h"
 #include "shape/cluster_shape.h"
 #include "shape/note.h"
 
@@ -22,24 +23,14 @@ struct ShapeOption {
   std::string name, help;
 };
 
-/// Arguments of a shape in a command; arguments[first] is the name of its family.
-struct ShapeRequest {
-  const std::vector<std::string>& arguments;
-  std::size_t first;
-  double diameter; ///< of the sphere of equal volume [m]; <= 0: the size that the shape has
-  /// Argument `k` after the name, from 1. Throws std::invalid_argument with the sentence that `need` is missing.
-  const std::string& word(std::size_t k, const std::string& need) const;
-  /// The number of spheres after the name. Throws std::invalid_argument.
-  long count() const;
-};
-
+/// A first word of shapes and what it makes.
 struct ShapeFamily {
   std::string name;   ///< first word of the shape, e.g. cube
   std::string syntax; ///< of all arguments, e.g. "cube 8|27|64|n^3"
   bool own_size;      ///< has a size without a diameter
-  /// Makes the shape; `used` becomes the number of arguments read, `notes` receives notes for the user. Throws
-  /// std::invalid_argument.
-  ClusterShape (*make)(const ShapeRequest& request, std::size_t& used, Notes& notes);
+  /// Makes the shape of the words behind its name, and reads no others. `diameter` [m] is that of the sphere of equal
+  /// volume; <= 0: the size that the shape has. `notes` receives notes for the user. Throws std::invalid_argument.
+  ClusterShape (*make)(base::OptionReader& words, double diameter, Notes& notes);
   std::vector<KnownShape> known = {}; ///< for lists; may be empty
   std::string extensions = {};        ///< of files of this family, e.g. ".clump"; empty: none
   std::vector<ShapeOption> options = {};

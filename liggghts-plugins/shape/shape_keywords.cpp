@@ -3,16 +3,14 @@
 // Shape arguments as users type them, in LIGGGHTS scripts and on the command line.
 #include "shape/shape_keywords.h"
 
+#include "base/refusal.h"
 #include "shape/cluster_shape.h"
-#include "shape/decimal.h"
 #include "shape/shape_family.h"
 #include "shape/union_geometry.h"
 
-#include <cerrno>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <stdexcept>
 
 namespace eccentra::shape {
 namespace {
@@ -21,28 +19,6 @@ namespace {
 constexpr double kLargeBody = 0.5;
 
 } // namespace
-
-const std::string& word_at(const std::vector<std::string>& arguments, std::size_t index, const std::string& need) {
-  if (index >= arguments.size())
-    throw std::invalid_argument("the shape ends too early: " + need + " is missing");
-  return arguments[index];
-}
-
-long whole_number(const std::string& word, const std::string& what) {
-  char* end = nullptr;
-  errno = 0;
-  const long value = std::strtol(word.c_str(), &end, 10);
-  if (word.empty() || *end || errno || value <= 0)
-    throw std::invalid_argument(what + " is '" + word + "': give a whole number greater than 0");
-  return value;
-}
-
-double positive_number(const std::string& word, const std::string& what) {
-  const std::optional<double> value = decimal(word);
-  if (!value || !std::isfinite(*value) || *value <= 0)
-    throw std::invalid_argument(what + " is '" + word + "': give a number greater than 0");
-  return *value;
-}
 
 double scale_to_diameter(double volume, double diameter) {
   return diameter / std::cbrt(6 * volume / M_PI);
@@ -61,8 +37,7 @@ void resize(std::vector<Sphere>& spheres, MassProperties& properties, double sca
 
 ClusterShape sized_shape(const std::string& name, std::vector<Sphere> spheres, double diameter) {
   if (diameter <= 0)
-    throw std::invalid_argument("shape " + name +
-                                " has no size of its own: give the diameter [m] of the sphere of equal volume, > 0");
+    base::refuse("shape {} has no size of its own; expected the diameter [m] of the sphere of equal volume, > 0", name);
   MassProperties p = measure_union(spheres).properties;
   resize(spheres, p, scale_to_diameter(p.volume, diameter));
   return ClusterShape(name, std::move(spheres), p);
@@ -86,8 +61,13 @@ void note_size(const std::vector<Sphere>& spheres, const std::string& where, Not
 ClusterShape make_shape(const std::vector<std::string>& arguments, std::size_t first, std::size_t& used,
                         double diameter, Notes& notes) {
   if (!std::isfinite(diameter))
-    throw std::invalid_argument("the diameter of a shape must be a finite number");
-  return shape_family(word_at(arguments, first, "the name of a shape")).make({arguments, first, diameter}, used, notes);
+    base::refuse("the diameter of a shape: '{}' is not a finite number; expected metres", diameter);
+  base::OptionReader words(
+      {arguments.begin() + static_cast<std::ptrdiff_t>(std::min(first, arguments.size())), arguments.end()});
+  const ShapeFamily& family = shape_family(words.keyword("the name of a shape"));
+  ClusterShape shape = family.make(words, diameter, notes);
+  used = words.at();
+  return shape;
 }
 
 ClusterShape make_shape(const std::vector<std::string>& arguments, std::size_t first, std::size_t& used,

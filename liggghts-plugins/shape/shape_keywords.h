@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Functions with which families of shapes read their arguments.
+// From the arguments of a command to a shape, and what families of shapes share.
 #pragma once
 
 #include "shape/cluster_shape.h"
@@ -10,13 +10,6 @@
 #include <vector>
 
 namespace eccentra::shape {
-
-/// Argument `index`. Throws std::invalid_argument with the sentence that `need` is missing if there are fewer.
-const std::string& word_at(const std::vector<std::string>& arguments, std::size_t index, const std::string& need);
-/// A whole number, or a number, greater than 0. Throw std::invalid_argument with a sentence that names `what` and
-/// `word`.
-long whole_number(const std::string& word, const std::string& what);
-double positive_number(const std::string& word, const std::string& what);
 
 /// Factor of lengths that changes the volume [m3] to that of a sphere of `diameter` [m].
 double scale_to_diameter(double volume, double diameter);

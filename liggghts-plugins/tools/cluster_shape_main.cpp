@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // clusterShape: from the command line to the shape and to what was asked about it.
+#include "base/option_reader.h"
 #include "base/standard_output.h"
 #include "shape/clump_file.h"
 #include "shape/shape_family.h"
@@ -153,9 +154,10 @@ std::vector<int> ladder(int all, Cover cover) {
 }
 
 void report_stl(const ShapeArguments& a, const std::vector<std::string>& words) {
-  std::size_t used = 0;
-  const StlRequest request = read_stl_request(words, 0, used);
-  require_end(words, used);
+  eccentra::base::OptionReader reader(words);
+  reader.keyword();
+  const StlRequest request = read_stl_request(reader);
+  require_end(words, reader.at());
   const Solid solid(request.path, request.scale);
   const std::vector<Sphere> spheres = cover_of(solid, request);
   Notes notes;
@@ -204,26 +206,32 @@ void report_stl(const ShapeArguments& a, const std::vector<std::string>& words) 
 /// Takes `diameter D`, as a LIGGGHTS script has it behind a shape, for --diameter.
 ShapeArguments with_script_words(ShapeArguments a) {
   std::vector<std::string> rest;
-  for (std::size_t k = 0; k < a.words.size(); ++k)
-    if (a.words[k] != "diameter") {
-      rest.push_back(a.words[k]);
+  eccentra::base::OptionReader reader(a.words);
+  while (reader.more())
+    if (reader.peek() != "diameter") {
+      rest.push_back(reader.keyword());
     } else {
       if (a.diameter > 0)
         throw std::invalid_argument("the diameter is given twice: give it once");
-      a.diameter = positive_number(word_at(a.words, ++k, "a value after 'diameter'"), "diameter");
+      reader.keyword();
+      a.diameter = reader.positive("the diameter [m]");
     }
   a.words = rest;
   return a;
 }
 
 void report_advice(const ShapeArguments& a) {
-  const std::string& body = word_at(a.words, 1, "a family such as cube or disk after 'advise'");
+  eccentra::base::OptionReader words(a.words);
+  words.keyword();
+  const std::string& body = words.value("a family such as cube or disk");
   require_end(a.words, 2);
   double error = 0;
   for (const auto& [name, value] : a.options)
-    if (name == "error")
-      error = positive_number(value, "error");
-    else
+    if (name == "error") {
+      eccentra::base::OptionReader typed({name, value});
+      typed.keyword();
+      error = typed.positive();
+    } else
       throw std::invalid_argument("--" + name + " does not belong to advise: leave it out");
   if (!(error > 0))
     throw std::invalid_argument("advise needs to know the error that is allowed: give --error E, such as 0.05 for 5 %");

@@ -92,20 +92,6 @@ double bed_height(const std::vector<double>& profile, double hole_diameter) {
   return hole_diameter;
 }
 
-double mean_concentration(const Section& section, const Snapshot& snapshot) {
-  double volume = 0;
-  for (const double v : snapshot.volume)
-    volume += v;
-  return volume / section.volume();
-}
-
-double solid_flux(const Section& section, const Snapshot& snapshot) {
-  double flux = 0;
-  for (std::size_t i = 0; i < snapshot.volume.size(); ++i)
-    flux += snapshot.volume[i] * snapshot.velocity[i][2];
-  return flux / section.length;
-}
-
 double share_at_rest(const Snapshot& snapshot, double speed) {
   double resting = 0;
   double all = 0;

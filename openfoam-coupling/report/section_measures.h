@@ -43,12 +43,6 @@ std::vector<double> layer_volumes(const Section& section, const std::array<doubl
 /// random loose packing holds (0.55 / 2), interpolated between layer centres; 0 if no layer is that dense.
 double bed_height(const std::vector<double>& profile, double hole_diameter);
 
-/// Mean solid volume fraction: sum V / section volume.
-double mean_concentration(const Section& section, const Snapshot& snapshot);
-
-/// Solid flux along the hole, sum V v_z / L [m3/s].
-double solid_flux(const Section& section, const Snapshot& snapshot);
-
 /// Of all bodies, weighted by volume; heights along `up` from the origin.
 struct SolidState {
   double volume = 0; ///< [m3]

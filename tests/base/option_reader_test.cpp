@@ -52,7 +52,7 @@ TEST(OptionReader, EachRefusalNamesKeywordValueAndRemedy) {
       [](OptionReader& r) { r.number(); },      [](OptionReader& r) { r.positive(); },
       [](OptionReader& r) { r.at_least(1); },   [](OptionReader& r) { r.between(0, 1); },
       [](OptionReader& r) { r.count(1); },      [](OptionReader& r) { r.on_off(); },
-      [](OptionReader& r) { r.choice({"a"}); },
+      [](OptionReader& r) { r.choice({"a"}); }, [](OptionReader& r) { r.expect("a"); },
   };
   for (const auto& read : reads) {
     const std::string bad = sentence(read, {"-x7"});
@@ -66,5 +66,6 @@ TEST(OptionReader, EachRefusalNamesKeywordValueAndRemedy) {
     EXPECT_NE(sentence(reads[4], {value}).find("'" + std::string(value) + "'"), std::string::npos) << value;
   EXPECT_NE(sentence(reads[1], {"0"}).find("'0'"), std::string::npos);
   EXPECT_NE(sentence(reads[3], {"1"}).find("'1'"), std::string::npos);
+  EXPECT_NE(sentence([](OptionReader& r) { r.keyword("a wall"); }, {}).find("expected a wall"), std::string::npos);
   EXPECT_NE(sentence([](OptionReader& r) { r.unknown("a, b"); }, {}).find("expected one of a, b"), std::string::npos);
 }

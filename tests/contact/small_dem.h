@@ -7,6 +7,7 @@
 #include "contact/contact_models.h"
 #include "contact/feature_search.h"
 #include "contact/manifold.h"
+#include "contact/random_poses.h"
 #include "contact/shared_contacts.h"
 #include "contact/wall_manifold.h"
 #include "shape/cluster_shape.h"
@@ -18,8 +19,6 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <random>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,18 +32,11 @@ using eccentra::contact::FeatureSearch;
 using eccentra::contact::Manifolds;
 using eccentra::contact::PosedCore;
 using eccentra::shape::RoundedHull;
+using eccentra::test::made;
+using eccentra::test::Random;
 using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-
-inline RoundedHull made(const std::string& line, double diameter) {
-  std::istringstream in(line);
-  std::vector<std::string> arguments;
-  for (std::string word; in >> word;)
-    arguments.push_back(word);
-  std::size_t used = 0;
-  return *eccentra::shape::make_shape(arguments, 0, used, diameter).hull();
-}
 
 /// A shape as bodies share it.
 struct Species {
@@ -323,24 +315,6 @@ class SmallDem {
   eccentra::contact::LargeContactBlock block_;
   eccentra::contact::DampingShares shares_;
   bool started_ = false;
-};
-
-/// Random vectors and orientations.
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  Vector3d direction() {
-    std::normal_distribution<double> n;
-    return Vector3d(n(engine_), n(engine_), n(engine_)).normalized();
-  }
-  Quaterniond orientation() {
-    std::normal_distribution<double> n;
-    return Quaterniond(n(engine_), n(engine_), n(engine_), n(engine_)).normalized();
-  }
-
- private:
-  std::mt19937_64 engine_;
 };
 
 } // namespace small_dem

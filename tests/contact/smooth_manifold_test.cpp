@@ -1,74 +1,21 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Manifolds: distances against slow references, candidates, continuity of force, limits in which others know the
-// answer.
-#include "contact/feature_search.h"
-#include "contact/gjk.h"
+// Manifolds of two bodies: distances against slow references, candidates, continuity of force, limits in which others
+// know the answer.
 #include "contact/least_axis.h"
-#include "contact/manifold.h"
-#include "contact/mesh_manifold.h"
+#include "contact/manifold_poses.h"
 #include "contact/rim_lanes.h"
-#include "contact/wall_manifold.h"
-#include "shape/cluster_shape.h"
-#include "shape/convex_hull.h"
-
-#include <Eigen/Geometry>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <random>
-#include <sstream>
+#include <vector>
 
 namespace {
 using namespace eccentra::contact;
+using namespace eccentra::test;
 using eccentra::shape::ConvexCore;
-using eccentra::shape::RoundedHull;
-using Eigen::AngleAxisd;
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
-
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  Vector3d direction() {
-    std::normal_distribution<double> n;
-    return Vector3d(n(engine_), n(engine_), n(engine_)).normalized();
-  }
-  Matrix3d turn() { return AngleAxisd(uniform(0, M_PI), direction()).toRotationMatrix(); }
-
- private:
-  std::mt19937_64 engine_;
-};
-
-RoundedHull made(const std::string& line) {
-  std::istringstream in(line);
-  std::vector<std::string> arguments;
-  for (std::string word; in >> word;)
-    arguments.push_back(word);
-  std::size_t used = 0;
-  return *eccentra::shape::make_shape(arguments, 0, used, 2).hull();
-}
-
-RoundedHull scattered(unsigned seed) {
-  Random r(seed);
-  std::vector<Vector3d> points;
-  for (int k = 0; k < 14; ++k)
-    points.push_back(r.uniform(0.8, 1.2) * r.direction());
-  return {"hull", eccentra::shape::convex_hull(points), 0.15};
-}
-
-/// One of each kind of body.
-std::vector<RoundedHull> kinds() {
-  std::vector<RoundedHull> all;
-  for (const char* line : {"smooth cube rounding .15", "smooth box 1 2 3 rounding .3", "smooth box 1 3 3 rounding 1",
-                           "smooth box 1 1 3 rounding 1", "smooth cube rounding 1", "smooth disk aspect .31 rounding 1",
-                           "smooth disk aspect .31 rounding .5", "smooth disk aspect 2 rounding .3"})
-    all.push_back(made(line));
-  all.push_back(scattered(4));
-  return all;
-}
 
 double segment_distance(const Vector3d& a, const Vector3d& u, const Vector3d& b, const Vector3d& v) {
   const Vector3d r = a - b;
@@ -116,74 +63,6 @@ double slow_distance(const PosedCore& a, const PosedCore& b, const Vector3d& off
       least = std::min(least, segment_distance(ca.vertices[e.from], ca.vertices[e.to] - ca.vertices[e.from],
                                                cb.vertices[f.from], cb.vertices[f.to] - cb.vertices[f.from]));
   return least;
-}
-
-/// Two orientations and an offset: anyhow, parallel, nearly parallel; the cores at `apart` from each other.
-struct Pose {
-  PosedCore a, b;
-  Vector3d offset;
-};
-Pose random_pose(const ContactCore& a, const ContactCore& b, Random& r, double apart) {
-  Pose pose;
-  const Matrix3d first = r.turn();
-  const int kind = static_cast<int>(r.uniform(0, 4));
-  Matrix3d second = r.turn();
-  if (kind == 1) // axes parallel, to round-off
-    second = first * (r.uniform(0, 1) < 0.5 ? Matrix3d(Matrix3d::Identity())
-                                            : AngleAxisd(M_PI / 2, Vector3d::UnitY()).toRotationMatrix());
-  if (kind == 2)
-    second = AngleAxisd(std::pow(10, r.uniform(-12, -1)), r.direction()).toRotationMatrix() * first;
-  pose.a.pose(a, first);
-  pose.b.pose(b, second);
-  const Vector3d way = kind == 3 ? Vector3d(first.col(2)) : r.direction();
-  const Vector3d side =
-      kind == 0
-          ? Vector3d(Vector3d::Zero())
-          : Vector3d(0.5 * a.bound * r.uniform(-1, 1) * first.col(0) + 0.5 * a.bound * r.uniform(-1, 1) * first.col(1));
-  double low = 0, high = 4 * (a.bound + b.bound);
-  for (int k = 0; k < 60; ++k) {
-    const double middle = (low + high) / 2;
-    (gjk_distance(pose.a, pose.b, side + middle * way) < apart ? low : high) = middle;
-  }
-  pose.offset = side + high * way;
-  return pose;
-}
-
-BodyPair pair_of(const Pose& pose) {
-  return {{&pose.a}, {&pose.b}, pose.offset};
-}
-
-/// The contacts of a pair, from a search with this skin.
-struct Found {
-  std::vector<Contact> contacts;
-  double gap, sunk, slack;
-  std::vector<int> candidates;
-};
-Found find(const Pose& pose, double skin) {
-  FeatureSearch search;
-  Found found;
-  found.slack = search.search(pair_of(pose), skin);
-  found.candidates = search.found();
-  Manifolds m;
-  m.add(pair_of(pose), found.candidates.data(), static_cast<int>(found.candidates.size()));
-  m.evaluate();
-  found.contacts = m.contacts();
-  found.gap = m.gap(0);
-  found.sunk = m.sunk(0);
-  return found;
-}
-
-struct Load {
-  Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
-};
-Load load_of(const std::vector<Contact>& contacts) {
-  Load load;
-  for (const Contact& c : contacts) {
-    const Vector3d f = c.weight * std::pow(c.overlap(), 1.5) * c.normal;
-    load.force += f;
-    load.torque += c.contact_point().cross(f);
-  }
-  return load;
 }
 
 TEST(SmoothManifold, DistancesAgreeWithASlowReference) {
@@ -492,137 +371,6 @@ TEST(SmoothManifold, SpheresAgainstHulls) {
       EXPECT_NEAR(found.gap, -0.1, 1e-6);
     }
   }
-}
-
-// Without an edge in touch a hull is the cluster of spheres at its vertices: on a plane, in a hole.
-TEST(SmoothManifold, OnAPlaneAHullIsItsVertices) {
-  Random r(7);
-  const RoundedHull hull = made("smooth cube rounding .2");
-  const ContactCore core(hull),
-      cluster(hull.polyhedron()->vertices, std::vector<double>(hull.polyhedron()->vertices.size(), hull.radius()));
-  for (int n = 0; n < 200; ++n) {
-    const Matrix3d turn = r.turn();
-    PosedCore a, b;
-    a.pose(core, turn);
-    b.pose(cluster, turn);
-    const Vector3d normal = r.direction();
-    std::vector<Contact> of_hull, of_cluster;
-    const double height = r.uniform(0.3, 1) * core.bound;
-    plane_contacts({&a}, normal, height, of_hull);
-    plane_contacts({&b}, normal, height, of_cluster);
-    const CylinderWall hole{0.5 * r.direction(), normal, 1.5};
-    hole_contacts({&a}, hole, of_hull);
-    hole_contacts({&b}, hole, of_cluster);
-    ASSERT_EQ(of_hull.size(), of_cluster.size());
-    for (std::size_t k = 0; k < of_hull.size(); ++k) {
-      EXPECT_EQ(of_hull[k].id, of_cluster[k].id);
-      EXPECT_EQ(of_hull[k].distance, of_cluster[k].distance);
-      EXPECT_EQ(of_hull[k].arm, of_cluster[k].arm);
-      EXPECT_EQ(of_hull[k].normal, of_cluster[k].normal);
-    }
-  }
-}
-
-// Over the middle of a triangle a hull touches as it touches the triangle's plane.
-TEST(SmoothManifold, OverATriangleAHullIsOnAPlane) {
-  Random r(8);
-  const ContactCore triangle(eccentra::shape::make_core({{9, 0, 0}, {-5, 8, 0}, {-5, -8, 0}}, {{0, 1, 2}, {0, 2, 1}}),
-                             0.);
-  for (const char* line : {"smooth cube rounding .2", "smooth disk aspect .31 rounding .5"}) {
-    const ContactCore core(made(line));
-    for (int n = 0; n < 100; ++n) {
-      Pose pose;
-      pose.a.pose(core, r.turn());
-      pose.b.pose(triangle, Matrix3d::Identity());
-      const double height = pose.a.reach_along({0, 0, -1}) + 0.9 * core.radius;
-      pose.offset = {0, 0, -height};
-      std::vector<Contact> on_plane;
-      plane_contacts({&pose.a}, {0, 0, 1}, height, on_plane);
-      const Load plane = load_of(on_plane), mesh = load_of(find(pose, 0.1).contacts);
-      EXPECT_LT((plane.force - mesh.force).norm(), 1e-6 * plane.force.norm());
-      EXPECT_LT((plane.torque - mesh.torque).norm(), 1e-6 * plane.force.norm());
-    }
-  }
-}
-
-// The triangles of a box are the box, whose corners have no radius.
-TEST(SmoothManifold, AMeshOfABoxIsTheBox) {
-  Random r(12);
-  const eccentra::shape::ConvexCore box = eccentra::shape::box_core({0.7, 0.9, 0.8});
-  const ContactCore solid(box, 0.);
-  int with_edges = 0;
-  for (const RoundedHull& hull : {made("smooth cube rounding .2"), made("smooth box 1 2 3 rounding .3")}) {
-    const ContactCore core(hull);
-    for (int n = 0; n < 300; ++n) {
-      Pose pose = random_pose(core, solid, r, 0.9 * core.radius);
-      const std::vector<Contact> expected = find(pose, 0.1 * core.radius).contacts;
-      // Each face as two triangles; an edge is active in the triangle that comes last.
-      std::vector<eccentra::contact::MeshTriangle> mesh;
-      std::vector<std::array<int, 3>> corners;
-      for (const auto& face : box.faces)
-        for (int half = 0; half < 2; ++half)
-          corners.push_back({face.corners[0], face.corners[1 + half], face.corners[2 + half]});
-      for (std::size_t t = 0; t < corners.size(); ++t) {
-        eccentra::contact::MeshTriangle triangle;
-        for (int k = 0; k < 3; ++k) {
-          triangle.corner[k] = pose.offset + pose.b.point(corners[t][k]);
-          const int from = corners[t][k], to = corners[t][(k + 1) % 3];
-          const auto is_edge = [&](const eccentra::shape::CoreEdge& e) {
-            return (e.from == from && e.to == to) || (e.from == to && e.to == from);
-          };
-          triangle.edge_active[k] = std::any_of(box.edges.begin(), box.edges.end(), is_edge);
-          for (std::size_t later = t + 1; later < corners.size(); ++later)
-            for (int j = 0; j < 3; ++j)
-              if (corners[later][j] == to && corners[later][(j + 1) % 3] == from)
-                triangle.edge_active[k] = false;
-        }
-        mesh.push_back(triangle);
-      }
-      eccentra::contact::MeshManifold manifold;
-      std::vector<Contact> found;
-      for (const auto& touch : manifold.touches({&pose.a}, mesh))
-        found.push_back(touch.contact);
-      const Load a = load_of(expected), b = load_of(found);
-      EXPECT_LT((a.force - b.force).norm(), 1e-9 * (1 + a.force.norm())) << hull.name() << " " << n;
-      EXPECT_LT((a.torque - b.torque).norm(), 1e-9 * (1 + a.torque.norm())) << hull.name() << " " << n;
-      with_edges += std::any_of(expected.begin(), expected.end(), [&](const Contact& c) {
-        return !c.elastic && eccentra::contact::feature_a(c.id) >= core.points &&
-               eccentra::contact::feature_b(c.id) >= solid.points;
-      });
-    }
-  }
-  EXPECT_GT(with_edges, 100);
-}
-
-// On a pipe of very large radius a body stands as on a plane; on a thin one an edge touches with its middle.
-TEST(SmoothManifold, OnAPipe) {
-  const ContactCore core(made("smooth cube rounding .2"));
-  PosedCore cube;
-  cube.pose(core, Matrix3d::Identity());
-  const double half = core.half.z() + core.radius;
-  std::vector<Contact> found;
-  pipe_contacts({&cube}, {{0, 0, -half - 0.29}, Vector3d::UnitX(), 0.3}, found);
-  ASSERT_EQ(found.size(), 2u); // the two lower edges across the pipe
-  for (const Contact& c : found) {
-    EXPECT_GE(c.id, core.points);
-    EXPECT_NEAR(c.overlap(), 0.01, 1e-12);
-    EXPECT_EQ(c.weight, 1);
-  }
-  found.clear();
-  const double large = 1e7;
-  pipe_contacts({&cube}, {{0, 0, -half - large + 0.01}, Vector3d::UnitX(), large}, found);
-  Load load = load_of(found);
-  EXPECT_NEAR(load.force.z(), 4 * std::pow(0.01, 1.5), 1e-4 * load.force.z());
-  // A disk's side across a pipe.
-  const ContactCore thick(made("smooth disk aspect 1 rounding .2"));
-  PosedCore disk;
-  disk.pose(thick, Matrix3d::Identity());
-  found.clear();
-  const double outer = thick.half.x() + thick.radius;
-  pipe_contacts({&disk}, {{-outer - 0.29, 0, 0}, Vector3d::UnitY(), 0.3}, found);
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].id, thick.axis_feature());
-  EXPECT_NEAR(found[0].overlap(), 0.01, 1e-12);
 }
 
 // Two disks side by side: crossed, the sides touch; parallel, the rims.

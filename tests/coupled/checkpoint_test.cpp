@@ -3,8 +3,8 @@
 // A run that goes on from a checkpoint gives the digits of the run that was not interrupted; what is damaged is not
 // used.
 #include "coupled/checkpoint_scene.h"
+#include "support/program_output.h"
 #include "support/read_file.h"
-#include "support/run_program.h"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ ProgramResult again(const fs::path& folder, int ranks = 1) {
   std::vector<std::string> arguments;
   if (ranks > 1)
     arguments = {"mpirun", "--oversubscribe", "--bind-to", "none", "-np", std::to_string(ranks)};
-  arguments.push_back(required_environment("ECCENTRA_BIN") + "/annulusFoam");
+  arguments.push_back(program("annulusFoam"));
   if (ranks > 1)
     arguments.emplace_back("-parallel");
   arguments.emplace_back("-resume");

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How libeccentra enters LIGGGHTS: by the launcher, by preloading, and not at all into another version.
+#include "support/granular_script.h"
+#include "support/program_output.h"
 #include "support/read_file.h"
-#include "support/run_program.h"
 
 #include <gtest/gtest.h>
 
@@ -15,21 +16,8 @@ namespace {
 
 using namespace eccentra::test;
 
-const std::string minimal_script = R"(atom_style granular
-boundary p p p
-newton off
-communicate single vel yes
-units si
-region box block 0 1 0 1 0 1 units box
-create_box 1 box
-neighbor 0.01 bin
-fix m1 all property/global youngsModulus peratomtype 5e6
-fix m2 all property/global poissonsRatio peratomtype 0.3
-fix m3 all property/global coefficientRestitution peratomtypepair 1 0.9
-fix m4 all property/global coefficientFriction peratomtypepair 1 0.5
-pair_style gran model hertz tangential history
-pair_coeff * *
-timestep 1e-5
+const std::string minimal_script =
+    granular_box("0 1 0 1 0 1", "p p p") + granular_material({}, "0.01") + sphere_contacts() + R"(timestep 1e-5
 create_atoms 1 single 0.5 0.5 0.9 units box
 set group all diameter 0.01 density 2500
 fix integrate all nve/sphere
@@ -37,7 +25,7 @@ run 10
 )";
 
 std::string launcher() {
-  return required_environment("ECCENTRA_BIN") + "/eccentra-dem";
+  return program("eccentra-dem");
 }
 
 int count(const std::string& text, const std::string& part) {

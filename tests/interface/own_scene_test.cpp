@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A scene of one's own: eccentra new writes a case that runs, resumes, changes by one number, and is reported.
+#include "support/program_output.h"
 #include "support/read_file.h"
-#include "support/run_program.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ class OwnScene : public testing::Test {
     return run_program(command, {folder, {}, 240});
   }
   ProgramResult eccentra(std::vector<std::string> words) const {
-    words.insert(words.begin(), required_environment("ECCENTRA_BIN") + "/eccentra");
+    words.insert(words.begin(), program("eccentra"));
     return in_folder(words);
   }
 
@@ -189,8 +189,7 @@ TEST_F(OwnScene, EachWrongWordIsOneSentence) {
 TEST_F(OwnScene, TheDoctorFindsWhatIsMissing) {
   const ProgramResult whole = eccentra({"doctor"});
   EXPECT_EQ(whole.status, 0) << whole.output;
-  const ProgramResult broken = run_program({required_environment("ECCENTRA_BIN") + "/eccentra", "doctor"},
-                                           {folder, {"WM_PROJECT_DIR=/nowhere"}, 240});
+  const ProgramResult broken = run_program({program("eccentra"), "doctor"}, {folder, {"WM_PROJECT_DIR=/nowhere"}, 240});
   EXPECT_EQ(broken.status, 1) << broken.output;
   EXPECT_NE(broken.output.find("OpenFOAM   FAILED  WM_PROJECT_DIR '/nowhere'"), std::string::npos) << broken.output;
 }

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every keyword that is on or off takes on, off, yes, no and none, and refuses any other word with its name. No file
 // but the option reader compares a word with them.
+#include "support/granular_script.h"
+#include "support/program_output.h"
 #include "support/read_file.h"
-#include "support/run_program.h"
 
 #include <gtest/gtest.h>
 
@@ -36,6 +37,7 @@ std::vector<Switch> switches() {
   const std::string force = "fix s all fluid/force rheology newtonian 0.1 density 1000 drag schiller_naumann ";
   const std::string couple = "fix s all fluid/couple link solver every 10 ";
   const std::string pair = "pair_style gran model hertz tangential history rolling_friction ";
+  const std::string clusters = "pair_style gran/cluster model hertz tangential history ";
   std::vector<Switch> all = {
       {"enforce", "fix s all timestep/limit safety 0.3 every 100 enforce W", "unfix s"},
       {"tangential_damping", wall + "tangential_damping W" + plane, "unfix s"},
@@ -45,6 +47,11 @@ std::vector<Switch> switches() {
       {"rockingDamping", wall + "rolling_friction eccentric rockingDamping W" + plane, "unfix s"},
       {"torsionTorque", pair + "shape torsionTorque W", ""},
       {"rockingDamping", pair + "eccentric shape cube 8 rockingDamping W", ""},
+      // Keywords of stock that ask for nothing.
+      {"heating_tracking", wall + "heating_tracking W" + plane, "unfix s", kOff},
+      {"store_force", wall + "store_force W" + plane, "unfix s", kOff},
+      {"computeElasticPotential", clusters + "computeElasticPotential W", "", kOff},
+      {"limitForce", wall + "limitForce W" + plane, "unfix s"},
       // What is on with link solver is refused because it belongs to link socket.
       {"overlap", couple + "overlap W", "unfix s", kOff},
       {"lanes", couple + "lanes W", "unfix s", kOn},
@@ -54,21 +61,9 @@ std::vector<Switch> switches() {
   return all;
 }
 
-const char* const kHead = R"(atom_style granular
-atom_modify map array
-boundary p p f
-newton off
-communicate single vel yes
-units si
-region box block 0 0.05 0 0.05 -0.001 0.05 units box
-create_box 1 box
-neighbor 0.002 bin
-fix m1 all property/global youngsModulus peratomtype 5e6
-fix m2 all property/global poissonsRatio peratomtype 0.25
-fix m3 all property/global coefficientRestitution peratomtypepair 1 0.9
-fix m4 all property/global coefficientFriction peratomtypepair 1 0.5
-pair_style gran model hertz tangential history
-)";
+const std::string kHead = granular_box("0 0.05 0 0.05 -0.001 0.05", "p p f") +
+                          granular_material({5e6, 0.9, 0.5, 0.25}, "0.002") +
+                          "pair_style gran model hertz tangential history\n";
 
 std::string line_of(const Switch& row, const std::string& word) {
   return std::regex_replace(row.line, std::regex("\\bW\\b"), word) + "\n";
@@ -76,7 +71,7 @@ std::string line_of(const Switch& row, const std::string& word) {
 
 ProgramResult run_script(const std::string& text) {
   write_file("./in.switches", kHead + text);
-  return run_program({required_environment("ECCENTRA_BIN") + "/eccentra-dem", "-in", "in.switches", "-log", "none"});
+  return run_program({program("eccentra-dem"), "-in", "in.switches", "-log", "none"});
 }
 
 TEST(Switches, EachTakesAllWords) {
@@ -108,7 +103,7 @@ const std::set<std::string> kOthers = {
     "styles/entry/script_replay.cpp",             // a keyword of stock's run
     "styles/bodies/fix_insert.cpp",               // keywords of stock, which stock reads, too
     "styles/pairs/body_commands.cpp",             // the same
-    "styles/pairs/contact_keywords_of_pairs.cpp", // words of LIGGGHTS's own models
+    "styles/pairs/contact_keywords_of_pairs.cpp", // models by name
     "styles/walls/wall_arguments.cpp",            // models by name
     "styles/fluid/fix_fluid_couple.cpp",          // checkpoint: auto, off or a number
     "styles/rolling/fix_sphere_orientation.cpp",  // writes a command of stock

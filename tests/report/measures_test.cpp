@@ -49,7 +49,6 @@ TEST(Profile, KeepsTheVolumeOfEveryBody) {
     const double sum = std::inner_product(profile.begin(), profile.end(), volumes.begin(), 0.0);
     EXPECT_NEAR(sum / all, 1, 1e-12);
   }
-  EXPECT_NEAR(mean_concentration(eccentric, snapshot) * eccentric.volume() / all, 1, 1e-13);
 }
 
 TEST(Profile, CutsASphereAtTheBounds) {
@@ -74,17 +73,15 @@ TEST(BedHeight, IsWhereTheProfileFallsThroughHalfOfPacking) {
   EXPECT_EQ(bed_height(std::vector<double>(20, 0.6), 0.02), 0.02);
 }
 
-TEST(Flux, OfBodiesThatMoveTogether) {
-  const double c = 0.05;
+TEST(ShareAtRest, OfBodiesThatMoveTogether) {
   const double w = 0.4;
   Snapshot snapshot;
   const int bodies = 100;
   for (int i = 0; i < bodies; ++i) {
     snapshot.position.push_back({0, 0.04, 0.003 * i});
     snapshot.velocity.push_back({0.1, -0.2, w});
-    snapshot.volume.push_back(c * eccentric.volume() / bodies);
+    snapshot.volume.push_back(1e-9);
   }
-  EXPECT_NEAR(solid_flux(eccentric, snapshot), c * w * eccentric.volume() / eccentric.length, 1e-15);
   EXPECT_EQ(share_at_rest(snapshot, 0.3), 0);
   EXPECT_EQ(share_at_rest(snapshot, 0.5), 1);
 }

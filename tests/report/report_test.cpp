@@ -3,8 +3,8 @@
 // annulusReport as a program, on a case folder whose numbers are known.
 #include "report/flow_fields.h"
 #include "report/summary.h"
+#include "support/program_output.h"
 #include "support/read_file.h"
-#include "support/run_program.h"
 
 #include <gtest/gtest.h>
 #include <vtkImageData.h>
@@ -54,7 +54,7 @@ fs::path make_case(const std::string& name) {
 }
 
 ProgramResult report(const std::vector<std::string>& arguments) {
-  std::vector<std::string> all = {required_environment("ECCENTRA_BIN") + "/annulusReport"};
+  std::vector<std::string> all = {program("annulusReport")};
   all.insert(all.end(), arguments.begin(), arguments.end());
   return run_program(all, {".", {}, 60});
 }

@@ -41,15 +41,15 @@ TEST(Reported, readme_ctrl_c_in_tomren_section_then_resume) {
     ASSERT_TRUE(job.says("\nt 0.05", kLong)) << job.text();
     job.signal(SIGINT);
     EXPECT_NE(job.wait(kLong), 0);
-    EXPECT_TRUE(says(job.text(), "SIGINT asked to stop: checkpoint")) << job.text();
-    EXPECT_TRUE(says(job.text(), "/tomren-section/run --resume parts")) << job.text();
+    EXPECT_TRUE(holds(job.text(), "SIGINT asked to stop: checkpoint")) << job.text();
+    EXPECT_TRUE(holds(job.text(), "/tomren-section/run --resume parts")) << job.text();
   }
   const ProgramResult offered = start(here, case_run("tomren-section", short_section("parts")));
   EXPECT_NE(offered.status, 0);
-  EXPECT_TRUE(says(offered.output, "/tomren-section/run --resume parts")) << offered.output;
+  EXPECT_TRUE(holds(offered.output, "/tomren-section/run --resume parts")) << offered.output;
   const ProgramResult again = start(here, case_run("tomren-section", {"--resume", "parts"}));
   EXPECT_EQ(again.status, 0) << again.output;
-  EXPECT_TRUE(says(again.output, "goes on from checkpoint")) << again.output;
+  EXPECT_TRUE(holds(again.output, "goes on from checkpoint")) << again.output;
   const char* const table = "postProcessing/eccentra/coupling.csv";
   EXPECT_EQ(physics_of_table(here / "parts" / table), physics_of_table(here / "whole" / table));
   EXPECT_EQ(contents(here / "parts/0.2/U"), contents(here / "whole/0.2/U"));
@@ -79,7 +79,7 @@ TEST(Reported, resume_over_the_socket_on_two_ranks) {
   interrupt(case_run("tomren-section", {"--resume", "parts"}), 26, SIGKILL);
   const ProgramResult again = start(here, case_run("tomren-section", {"--resume", "parts"}));
   EXPECT_EQ(again.status, 0) << again.output;
-  EXPECT_TRUE(says(contents(parts / "log.dem"), "goes on from checkpoint")) << contents(parts / "log.dem");
+  EXPECT_TRUE(holds(contents(parts / "log.dem"), "goes on from checkpoint")) << contents(parts / "log.dem");
   const char* const table = "postProcessing/eccentra/coupling.csv";
   EXPECT_EQ(physics_of_table(parts / table), physics_of_table(here / "whole" / table));
   for (const char* field : {"0.2/U", "0.2/alpha"})
@@ -120,7 +120,7 @@ TEST(Reported, readme_output_a_b) {
   const fs::path here = fresh_folder("blank");
   const ProgramResult result = start(here, case_run("tomren-section", short_section("a b")));
   EXPECT_EQ(result.status, 1);
-  EXPECT_TRUE(says(result.output, "--output: ")) << result.output;
+  EXPECT_TRUE(holds(result.output, "--output: ")) << result.output;
   EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
   EXPECT_TRUE(fs::is_empty(here));
 }
@@ -183,7 +183,7 @@ TEST(Reported, adversary_15_words_of_run) {
   const ProgramResult right =
       start(here, case_run("tomren-section", short_section("-dash", {"--count", "3e1", "--seconds", "0.01"})));
   EXPECT_EQ(right.status, 0) << right.output;
-  EXPECT_TRUE(says(contents(here / "-dash/in.cuttings"), "index 30 ")) << contents(here / "-dash/in.cuttings");
+  EXPECT_TRUE(holds(contents(here / "-dash/in.cuttings"), "index 30 ")) << contents(here / "-dash/in.cuttings");
 }
 
 TEST(Reported, adversary_17_names_of_folders) {

@@ -20,7 +20,7 @@ namespace {
 const std::string go_on =
     "atom_style granular\natom_modify map array\nnewton off\ncommunicate single vel yes\nunits si\n"
     "read_restart now.restart\n" +
-    std::string(material) + contacts + moved + "run 10\n";
+    material + contacts + moved + "run 10\n";
 
 } // namespace
 
@@ -86,7 +86,7 @@ TEST(Reported, changed_behind_our_back) {
   heavy.atom().rmass[0] *= 1.1;
   sentence = heavy.refusal("run 1");
   EXPECT_EQ(sentence.find("atom 1 (cluster 'cube 8'): mass"), 0u) << sentence;
-  Session exchanged(bed("region box block -0.001 0.021 -0.001 0.021 -0.002 0.06 units box\n") + settle);
+  Session exchanged(bed() + settle);
   exchanged.run("run 0");
   int* tag = exchanged.atom().tag;
   for (int i = 0; i < exchanged.atom().nlocal; ++i)

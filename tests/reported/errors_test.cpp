@@ -97,7 +97,7 @@ TEST(Reported, errors_end_with_the_sentence) {
   };
   for (const Script& script : scripts) {
     write_file(here / "in.bad", head + script.line + "\n");
-    const std::vector<std::string> command = {bin("eccentra-dem"), "-in", "in.bad", "-log", "log.dem"};
+    const std::vector<std::string> command = {program("eccentra-dem"), "-in", "in.bad", "-log", "log.dem"};
     expect_last_line(run_program(command, {here, {}, 60}), script.parts, script.name);
     const std::string log = contents(here / "log.dem");
     EXPECT_EQ(occurrences(log, script.parts[0]), 1u) << script.name << ", the log\n" << log;
@@ -119,13 +119,13 @@ TEST(Reported, errors_end_with_the_sentence) {
   const ProgramResult both = wrong.solve(2);
   EXPECT_EQ(occurrences(both.output, "annulusFoam: error: "), 1u) << both.output;
   Section mesh("mesh", {{"", kMesh, "pipeRadius      0.02413", "pipeRadius      0.07"}});
-  expect_last_line(run_program({bin("annulusMesh")}, {mesh.folder(), {}, 60}), {"annulusMesh: error: ", "pipeRadius"},
-                   "annulusMesh");
-  expect_last_line(run_program({bin("annulusReport"), "nowhere"}, {here, {}, 60}), {"nowhere"}, "annulusReport");
-  expect_last_line(run_program({bin("clusterShape"), "cube", "9"}, {here, {}, 60}), {"clusterShape: error: ", "9"},
+  expect_last_line(run_program({program("annulusMesh")}, {mesh.folder(), {}, 60}),
+                   {"annulusMesh: error: ", "pipeRadius"}, "annulusMesh");
+  expect_last_line(run_program({program("annulusReport"), "nowhere"}, {here, {}, 60}), {"nowhere"}, "annulusReport");
+  expect_last_line(run_program({program("clusterShape"), "cube", "9"}, {here, {}, 60}), {"clusterShape: error: ", "9"},
                    "clusterShape");
   write_file(here / "keys", "");
-  expect_last_line(run_program({bin("eccentra-keys"), "keys"}, {here, {}, 60}), {"eccentra-keys: error: ", "keys"},
+  expect_last_line(run_program({program("eccentra-keys"), "keys"}, {here, {}, 60}), {"eccentra-keys: error: ", "keys"},
                    "eccentra-keys");
 }
 
@@ -141,11 +141,11 @@ TEST(Reported, comma_locale_of_programs) {
   // The same numbers, digit by digit, in both.
   const auto table = [](const std::string& name, const std::vector<std::string>& environment) {
     Section section(name);
-    EXPECT_EQ(run_program({bin("annulusMesh")}, {section.folder(), environment, 60}).status, 0);
+    EXPECT_EQ(run_program({program("annulusMesh")}, {section.folder(), environment, 60}).status, 0);
     const ProgramResult result = section.solve(1, environment);
     EXPECT_EQ(result.status, 0) << result.output;
     const ProgramResult report =
-        run_program({bin("annulusReport"), ".", "--no-pictures"}, {section.folder(), environment, 60});
+        run_program({program("annulusReport"), ".", "--no-pictures"}, {section.folder(), environment, 60});
     EXPECT_EQ(report.status, 0) << report.output;
     std::string rows = contents(section.folder() / "constant/polyMesh/points");
     std::istringstream csv(contents(section.folder() / "postProcessing/eccentra/coupling.csv"));
@@ -179,13 +179,13 @@ TEST(Reported, comma_locale_of_programs) {
   const auto numbers = [&dem](const std::string& locale) {
     std::vector<std::string> environment = {"LC_ALL=" + locale, "LOCPATH=" + fs::absolute("locale").string()};
     const ProgramResult result =
-        run_program({bin("eccentra-dem"), "-in", "in.numbers", "-log", "none"}, {dem, environment, 60});
+        run_program({program("eccentra-dem"), "-in", "in.numbers", "-log", "none"}, {dem, environment, 60});
     EXPECT_EQ(result.status, 0) << result.output;
     EXPECT_TRUE(holds(result.output, "a is 1.25")) << result.output;
     return contents(dem / "numbers.txt");
   };
   EXPECT_TRUE(holds(numbers("C"), "0.25 0.5 0.75 0.000105"));
   EXPECT_EQ(numbers("C"), numbers("de_DE.UTF-8"));
-  const std::vector<std::string> shape = {bin("clusterShape"), "cube", "8"};
+  const std::vector<std::string> shape = {program("clusterShape"), "cube", "8"};
   EXPECT_EQ(run_program(shape, {".", german, 60}).output, run_program(shape, {".", {"LC_ALL=C"}, 60}).output);
 }

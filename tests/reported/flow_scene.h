@@ -3,7 +3,7 @@
 // A case of an annulus as the rows of tests/reported write it, what annulusFoam says of it, and its tables.
 #pragma once
 
-#include "support/run_program.h"
+#include "support/program_output.h"
 
 #include <gtest/gtest.h>
 
@@ -18,10 +18,6 @@
 namespace eccentra::test {
 
 namespace fs = std::filesystem;
-
-inline std::string program(const char* name) {
-  return required_environment("ECCENTRA_BIN") + "/" + name;
-}
 
 /// A case of an annulus; the members are the contents of its files.
 struct FlowScene {

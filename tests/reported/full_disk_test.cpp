@@ -46,7 +46,7 @@ TEST(Reported, adversary_1b_dump_cluster_vtk_on_a_full_disk) {
   ASSERT_TRUE(wait_until([&] { return fs::exists(folder / "heap_0.vtp"); })) << job.text();
   job.limit_files(16384);
   EXPECT_NE(job.wait(kLong), 0);
-  EXPECT_TRUE(says(job.text(), "dump pictures cluster/vtk: file 'heap_5000.vtp' cannot be written (File too large)"))
+  EXPECT_TRUE(holds(job.text(), "dump pictures cluster/vtk: file 'heap_5000.vtp' cannot be written (File too large)"))
       << job.text();
   EXPECT_FALSE(fs::exists(folder / "heap_5000.vtp"));
   EXPECT_FALSE(fs::exists(folder / "heap_5000.vtp.part"));
@@ -58,7 +58,7 @@ TEST(Reported, adversary_14_standard_output_on_a_full_disk) {
   const ProgramResult result = start(folder, {"sh", "-c", "exec '" + program("annulusFoam") + "' > /dev/full"});
   EXPECT_EQ(result.signal, 0) << result.output;
   EXPECT_NE(result.status, 134) << result.output;
-  EXPECT_FALSE(says(result.output, "terminate called")) << result.output;
+  EXPECT_FALSE(holds(result.output, "terminate called")) << result.output;
   EXPECT_LE(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
-  EXPECT_TRUE(says(result.output, "standard output")) << result.output;
+  EXPECT_TRUE(holds(result.output, "standard output")) << result.output;
 }

@@ -73,7 +73,7 @@ TEST(Reported, geometry_of_one_side_alone) {
   // The same on both sides runs, on any mesh, without a word of it.
   for (const std::string cells : {"(6 24 4)", "(3 8 2)", "(4 12 3)"}) {
     Section same("same");
-    replace(same.folder() / kMesh, "(6 24 4)", cells);
+    replace_in(same.folder() / kMesh, "(6 24 4)", cells);
     const ProgramResult result = same.run();
     EXPECT_EQ(result.status, 0) << cells << "\n" << result.output;
     EXPECT_FALSE(holds(result.output, "of the DEM script")) << cells << "\n" << result.output;
@@ -81,7 +81,7 @@ TEST(Reported, geometry_of_one_side_alone) {
   // Two walls that shall be two.
   Section apart("apart", {{"", kScript, "zcylinder 0.0635 0 0", "zcylinder 0.0600 0 0"},
                           {"", "constant/couplingProperties", "report ", "wallsApart (hole);\nreport "}});
-  replace(apart.folder() / kScript, "cylinder z 0 0 0.0634", "cylinder z 0 0 0.0599");
+  replace_in(apart.folder() / kScript, "cylinder z 0 0 0.0634", "cylinder z 0 0 0.0599");
   const ProgramResult two = apart.run();
   EXPECT_EQ(two.status, 0) << two.output;
   Section unknown("unknown", {{"", "constant/couplingProperties", "report ", "wallsApart (holle);\nreport "}});
@@ -94,10 +94,10 @@ TEST(Reported, geometry_of_one_side_alone) {
   for (const auto& [radius, spin, sentence] : std::vector<std::tuple<double, std::string, std::string>>{
            {0.0635, "", ""}, {0.060, "", "mesh 'cad'"}, {0.0635, "2", "turns at 3.14"}}) {
     Section stl("stl");
-    replace(stl.folder() / kScript, "fix             hole all " + hole, meshes);
+    replace_in(stl.folder() / kScript, "fix             hole all " + hole, meshes);
     if (!spin.empty())
-      replace(stl.folder() / kScript, "run             ${steps}",
-              "fix turn all move/mesh mesh cad rotate origin 0 0 0 axis 0 0 1 period " + spin + "\nrun ${steps}");
+      replace_in(stl.folder() / kScript, "run             ${steps}",
+                 "fix turn all move/mesh mesh cad rotate origin 0 0 0 axis 0 0 1 period " + spin + "\nrun ${steps}");
     write_cylinder(stl.folder() / "hole.stl", radius, 0, -0.001, 0.061, 64);
     const ProgramResult result = stl.run();
     if (sentence.empty())
@@ -166,8 +166,8 @@ TEST(Reported, particles_outside_the_mesh) {
 
   // A stated number is allowed, said, and counted in the table.
   Section allowed("allowed", without);
-  replace(allowed.folder() / "constant/couplingProperties", "report          20",
-          "particlesOutside 20;\nreport          1");
+  replace_in(allowed.folder() / "constant/couplingProperties", "report          20",
+             "particlesOutside 20;\nreport          1");
   const ProgramResult result = allowed.run();
   EXPECT_EQ(result.status, 0) << result.output;
   EXPECT_TRUE(holds(result.output, "particles lie outside the mesh")) << result.output;

@@ -3,9 +3,8 @@
 // The shipped cases as they are, each killed at random moments by SIGKILL, SIGINT and SIGTERM, and each time told to go
 // on.
 #include "link/background_job.h"
+#include "reported/programs_of_a_run.h"
 #include "reported/table_of_run.h"
-#include "support/read_file.h"
-#include "support/run_program.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +22,7 @@ namespace {
 using namespace eccentra::test;
 namespace fs = std::filesystem;
 
-constexpr double kLong = 2500; ///< [s]
+constexpr double kWholeRun = 2500; ///< [s]
 constexpr int kKillsOfEach = 4;
 
 struct Interrupted {
@@ -67,13 +66,6 @@ void expect_same(const fs::path& whole, const fs::path& parts) {
             physics_of_table(whole / "postProcessing/eccentra/coupling.csv"));
 }
 
-std::vector<std::string> run_of(const std::string& name, const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = {required_environment("ECCENTRA_CASES") + '/' + name + "/run", "--bin",
-                                        required_environment("ECCENTRA_BIN")};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
-
 std::mt19937& random_numbers() {
   static std::mt19937 random(std::random_device{}());
   return random;
@@ -85,7 +77,7 @@ void interrupt(const Interrupted& whole, const Interrupted& parts, const fs::pat
   {
     fs::create_directories(whole.name);
     BackgroundJob job(whole.name, whole.begin, "log");
-    ASSERT_EQ(job.wait(kLong), 0) << job.text();
+    ASSERT_EQ(job.wait(kWholeRun), 0) << job.text();
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   std::uniform_real_distribution<double> moment(0.05 * seconds, 0.4 * seconds);
@@ -96,13 +88,13 @@ void interrupt(const Interrupted& whole, const Interrupted& parts, const fs::pat
     const double after = moment(random_numbers());
     const int ended = job.wait(after);
     kill_all(of_parts, numbers[kill], job);
-    const int code = job.wait(kLong);
+    const int code = job.wait(kWholeRun);
     std::cout << parts.name << ": signal " << numbers[kill] << " after " << after << " s of " << seconds << ", exit "
               << code << (ended != -1 ? " (had ended)" : "") << std::endl;
     ASSERT_NE(code, -1);
   }
   BackgroundJob job(parts.name, parts.go_on, "log");
-  ASSERT_EQ(job.wait(kLong), 0) << job.text();
+  ASSERT_EQ(job.wait(kWholeRun), 0) << job.text();
   expect_same(of_whole, of_parts);
 }
 
@@ -118,11 +110,11 @@ void interrupt_case(const std::string& label, const std::string& name, std::vect
     more.insert(more.end(), {"--seconds", seconds});
   const auto begin = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_of(name, arguments);
+    return case_run(name, arguments);
   };
   const fs::path here = fs::absolute(fresh_folder(label));
   interrupt({here / "w", begin({"--output", here / "whole"}), {}},
-            {here / "p", begin({"--output", here / "parts"}), run_of(name, {"--resume", here / "parts"})},
+            {here / "p", begin({"--output", here / "parts"}), case_run(name, {"--resume", here / "parts"})},
             here / "whole", here / "parts");
 }
 
@@ -140,7 +132,7 @@ TEST(Reported, twenty_kills_on_the_shipped_cases) {
     return;
   const fs::path here = fs::absolute(fresh_folder("heap"));
   const std::string script = contents(fs::path(required_environment("ECCENTRA_CASES")) / "heap/in.heap");
-  const std::vector<std::string> arguments = {required_environment("ECCENTRA_BIN") + "/eccentra-dem", "-in", "in.heap"};
+  const std::vector<std::string> arguments = {program("eccentra-dem"), "-in", "in.heap"};
   std::vector<std::string> again = arguments;
   again.emplace_back("-resume");
   for (const char* part : {"whole", "parts"}) {

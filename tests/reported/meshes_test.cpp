@@ -102,7 +102,7 @@ TEST(Reported, stl_two_bodies) {
   EXPECT_NE(result.status, 0);
   expect_parts(result.output, {"two.stl", "2 pieces", "one file per solid"});
   const ProgramResult ranks =
-      shell("mpirun --oversubscribe -np 2 " + tool("eccentra-dem") + " -in shape.in; echo status $?");
+      shell("mpirun --oversubscribe -np 2 " + program("eccentra-dem") + " -in shape.in; echo status $?");
   EXPECT_EQ(ranks.output.find("status 0"), std::string::npos) << ranks.output;
 }
 
@@ -135,7 +135,7 @@ TEST(Reported, clump_of_stl_mass_solid) {
                         {p[1], p[2], p[5]}, {p[1], p[5], p[4]}, {p[2], p[0], p[3]}, {p[2], p[3], p[5]}};
   write_stl("wedge.stl", wedge);
   const std::string arguments = " stl wedge.stl --spheres 12 --scale 1e-3 --mass solid ";
-  ASSERT_EQ(shell(tool("clusterShape") + arguments + "-o wedge.clump").status, 0);
+  ASSERT_EQ(shell(program("clusterShape") + arguments + "-o wedge.clump").status, 0);
   const Made file = make({"file", "wedge.clump"}),
              solid = make({"stl", "wedge.stl", "spheres", "12", "scale", "1e-3", "mass", "solid"});
   ASSERT_EQ(file.shape.size(), 1u) << file.sentence;
@@ -151,7 +151,7 @@ TEST(Reported, clump_of_stl_mass_solid) {
   // The same at another size, and through a second file.
   EXPECT_NEAR(make({"file", "wedge.clump"}, 2e-3).shape.at(0).equivalent_radius(), 1e-3, 1e-15);
   EXPECT_NEAR(make({"file", "wedge.clump", "scale", "2"}).shape.at(0).volume(), 8 * b.volume(), 1e-11 * b.volume());
-  ASSERT_EQ(shell(tool("clusterShape") + " wedge.clump -o again.clump").status, 0);
+  ASSERT_EQ(shell(program("clusterShape") + " wedge.clump -o again.clump").status, 0);
   EXPECT_NEAR(make({"file", "again.clump"}).shape.at(0).volume(), b.volume(), 1e-12 * b.volume());
   // A list that was edited no longer has these properties.
   ASSERT_EQ(shell("sed '$d' wedge.clump > edited.clump").status, 0);
@@ -268,7 +268,7 @@ TEST(Reported, stl_that_is_not_closed_or_not_readable) {
     expect_parts(made_of(c.facets).sentence, c.parts);
 
   write_stl("good.stl", kCube);
-  const std::string good = text_of("good.stl");
+  const std::string good = contents("good.stl");
   const auto replaced = [&](const std::string& what, const std::string& by) {
     std::string text = good;
     return text.replace(text.find(what), what.size(), by);
@@ -399,7 +399,7 @@ TEST(Reported, stl_cover_balanced) {
   EXPECT_GT(thick, 0.1);
   EXPECT_LT(thick, 0.16) << "much thicker than the flake";
   EXPECT_LT(std::abs(sum_balanced / lines - 0.1), std::abs(sum_inside / lines - 0.1));
-  EXPECT_NE(cover("outside").sentence.find("balanced or inside"), std::string::npos) << cover("outside").sentence;
+  EXPECT_NE(cover("outside").sentence.find("inside or balanced"), std::string::npos) << cover("outside").sentence;
 }
 
 TEST(Reported, stl_in_millimetres) {

@@ -3,7 +3,8 @@
 // Scenes of one cube and of a bed of disks, run by eccentra-dem, and how it refuses them.
 #pragma once
 
-#include "support/run_program.h"
+#include "support/granular_script.h"
+#include "support/program_output.h"
 
 #include <gtest/gtest.h>
 
@@ -14,24 +15,9 @@
 
 namespace eccentra::test {
 
-inline constexpr const char* box = R"(atom_style granular
-atom_modify map array
-boundary f f f
-newton off
-communicate single vel yes
-units si
-region box block -0.05 0.05 -0.05 0.05 -0.05 0.05 units box
-create_box 1 box
-)";
-inline constexpr const char* material = R"(neighbor 0.001 bin
-neigh_modify delay 0
-fix m1 all property/global youngsModulus peratomtype 5e6
-fix m2 all property/global poissonsRatio peratomtype 0.25
-fix m3 all property/global coefficientRestitution peratomtypepair 1 0.9
-fix m4 all property/global coefficientFriction peratomtypepair 1 0.5
-timestep 1e-5
-)";
-inline constexpr const char* contacts = "pair_style gran/cluster model hertz tangential history\npair_coeff * *\n";
+inline const std::string box = granular_box();
+inline const std::string material = granular_material({5e6, 0.9, 0.5, 0.25}) + "timestep 1e-5\n";
+inline const std::string contacts = cluster_contacts();
 inline constexpr const char* cubes =
     R"(fix c all particletemplate/cluster 15485863 atom_type 1 density constant 2619 shape cube 8 diameter 6.35e-3 orientation given
 fix d all particledistribution/discrete 32452843 1 c 1.0
@@ -49,13 +35,12 @@ inline void write_here(const std::string& name, const std::string& text) {
 }
 
 inline std::string scene_with_one_body() {
-  return std::string(box) + material + contacts + cubes + moved + one_body;
+  return box + material + contacts + cubes + moved + one_body;
 }
 
 inline ProgramResult run_script(const std::string& text, std::vector<std::string> more = {}) {
   write_here("in.script", text);
-  std::vector<std::string> words = {required_environment("ECCENTRA_BIN") + "/eccentra-dem", "-in", "in.script", "-log",
-                                    "none"};
+  std::vector<std::string> words = {program("eccentra-dem"), "-in", "in.script", "-log", "none"};
   words.insert(words.end(), more.begin(), more.end());
   ProgramOptions options;
   options.timeout = 240;
@@ -86,19 +71,10 @@ inline void expect_refused(const ProgramResult& result, const std::vector<std::s
     EXPECT_NE(sentence.find(word), std::string::npos) << "'" << word << "' in: " << sentence;
 }
 
-/// A bed of disks that has come to rest in a box of walls.
-inline std::string bed(const std::string& words_of_the_box) {
-  return "atom_style granular\natom_modify map array\nboundary f f f\nnewton off\ncommunicate single vel yes\nunits "
-         "si\n" +
-         words_of_the_box + "create_box 1 box\n" + R"(neighbor 0.001 bin
-neigh_modify delay 0
-fix m1 all property/global youngsModulus peratomtype 5e6
-fix m2 all property/global poissonsRatio peratomtype 0.3
-fix m3 all property/global coefficientRestitution peratomtypepair 1 0.3
-fix m4 all property/global coefficientFriction peratomtypepair 1 0.5
-pair_style gran/cluster model hertz tangential history
-pair_coeff * *
-timestep 2e-5
+/// A bed of disks in a box of walls; `settle` lets it come to rest.
+inline std::string bed() {
+  return granular_box("-0.001 0.021 -0.001 0.021 -0.002 0.06") + granular_material({5e6, 0.3, 0.5, 0.3}) +
+         cluster_contacts() + R"(timestep 2e-5
 fix x0 all wall/gran/cluster model hertz tangential history primitive type 1 xplane 0.0
 fix x1 all wall/gran/cluster model hertz tangential history primitive type 1 xplane 0.02
 fix y0 all wall/gran/cluster model hertz tangential history primitive type 1 yplane 0.0

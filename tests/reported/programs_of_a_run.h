@@ -3,8 +3,8 @@
 // Starts the programs of a run and the cases' own `run`, and waits for what they write.
 #pragma once
 
+#include "support/program_output.h"
 #include "support/read_file.h"
-#include "support/run_program.h"
 
 #include <gtest/gtest.h>
 
@@ -22,10 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr double kLong = 100; ///< [s], on a busy machine
 
-inline std::string program(const char* name) {
-  return required_environment("ECCENTRA_BIN") + '/' + name;
-}
-
 inline std::vector<std::string> annulus_foam(const std::vector<std::string>& more = {}) {
   std::vector<std::string> arguments = {program("annulusFoam")};
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -37,10 +33,6 @@ inline ProgramResult start(const fs::path& folder, const std::vector<std::string
   options.directory = folder;
   options.timeout = kLong;
   return run_program(arguments, options);
-}
-
-inline bool says(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 template <class Condition> bool wait_until(const Condition& condition, double seconds = kLong) {
@@ -75,8 +67,9 @@ inline std::vector<std::string> short_section(const std::string& output, const s
 
 inline void replace_in(const fs::path& file, const std::string& part, const std::string& by) {
   std::string text = contents(file);
-  ASSERT_NE(text.find(part), std::string::npos) << file << part;
-  std::ofstream(file) << text.replace(text.find(part), part.size(), by);
+  const std::size_t at = text.find(part);
+  ASSERT_NE(at, std::string::npos) << "'" << part << "' is not in " << file;
+  write_file(file, text.replace(at, part.size(), by));
 }
 
 } // namespace eccentra::test

@@ -43,7 +43,7 @@ void expect_heap_goes_on(int ranks) {
   arguments.emplace_back("-resume");
   const ProgramResult again = start(parts, arguments);
   EXPECT_EQ(again.status, 0) << again.output;
-  EXPECT_TRUE(says(again.output, "goes on from checkpoint")) << again.output;
+  EXPECT_TRUE(holds(again.output, "goes on from checkpoint")) << again.output;
   EXPECT_EQ(contents(parts / "end.bodies"), contents(whole / "end.bodies"));
 }
 
@@ -122,17 +122,17 @@ TEST(Reported, resume_heap_alone) {
     ASSERT_TRUE(wait_until([&] { return fs::exists(parts / "checkpoints" / checkpoint); })) << job.text();
     job.signal(number);
     EXPECT_NE(job.wait(kLong), 0) << job.text();
-    EXPECT_TRUE(says(job.text(), "is written, go on with: ")) << job.text();
+    EXPECT_TRUE(holds(job.text(), "is written, go on with: ")) << job.text();
   };
   interrupt(arguments, "3000", SIGTERM);
   const ProgramResult forgotten = start(parts, arguments);
   EXPECT_NE(forgotten.status, 0);
-  EXPECT_TRUE(says(forgotten.output, "of a run that was interrupted")) << forgotten.output;
+  EXPECT_TRUE(holds(forgotten.output, "of a run that was interrupted")) << forgotten.output;
   interrupt(resumes, "5000", SIGINT);
   const ProgramResult again = start(parts, resumes);
   EXPECT_EQ(again.status, 0) << again.output;
   const std::string end = contents(whole / "end.bodies");
-  EXPECT_TRUE(says(end, "\n60 ")) << end;
+  EXPECT_TRUE(holds(end, "\n60 ")) << end;
   EXPECT_EQ(contents(parts / "end.bodies"), end);
   EXPECT_TRUE(fs::exists(parts / "log.liggghts.before-1"));
   // To more bodies than before: the insertion goes on.
@@ -140,5 +140,5 @@ TEST(Reported, resume_heap_alone) {
   replace_in(parts / "in.heap", "run 9000", "run 11500");
   const ProgramResult more = start(parts, resumes);
   EXPECT_EQ(more.status, 0) << more.output;
-  EXPECT_TRUE(says(contents(parts / "end.bodies"), "\n90 ")) << more.output;
+  EXPECT_TRUE(holds(contents(parts / "end.bodies"), "\n90 ")) << more.output;
 }

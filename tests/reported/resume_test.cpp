@@ -23,11 +23,11 @@ TEST(Reported, adversary_2_shorter_coupling_csv) {
   std::ofstream(table) << head << "0.01,half a r";
   const ProgramResult again = start(folder, annulus_foam({"-resume"}));
   EXPECT_EQ(again.status, 0) << again.output;
-  EXPECT_TRUE(says(again.output, "rows that the checkpoint's run had written")) << again.output;
+  EXPECT_TRUE(holds(again.output, "rows that the checkpoint's run had written")) << again.output;
   EXPECT_EQ(contents(table).substr(0, head.size()), head);
   EXPECT_EQ(contents(folder / "end.bodies") + '\n',
             whole.result.substr(0, contents(folder / "end.bodies").size()) + '\n');
-  EXPECT_FALSE(says(contents(table), "half a r"));
+  EXPECT_FALSE(holds(contents(table), "half a r"));
   // No table at all, or one with other columns: kept beside.
   const fs::path other = interrupted(whole, "other");
   write_file(other / "postProcessing/eccentra/coupling.csv", "time,something\n0,1\n");
@@ -42,7 +42,7 @@ TEST(Reported, adversary_2b_a_forgotten_resume) {
   const auto steps = eccentra::link::numbered_entries(folder / "checkpoints", "");
   const ProgramResult forgotten = start(folder, annulus_foam());
   EXPECT_NE(forgotten.status, 0);
-  EXPECT_TRUE(says(forgotten.output, "of a run that was interrupted: go on with: ")) << forgotten.output;
+  EXPECT_TRUE(holds(forgotten.output, "of a run that was interrupted: go on with: ")) << forgotten.output;
   EXPECT_EQ(contents(folder / "postProcessing/eccentra/coupling.csv"), table);
   EXPECT_EQ(eccentra::link::numbered_entries(folder / "checkpoints", ""), steps);
   EXPECT_EQ(start(folder, annulus_foam({"-resume"})).status, 0);
@@ -84,7 +84,7 @@ TEST(Reported, adversary_2b_newer_checkpoints_are_kept) {
   const std::string table = contents(whole.folder / "postProcessing/eccentra/coupling.csv");
   const ProgramResult none = start(whole.folder, annulus_foam({"-resume"}));
   EXPECT_NE(none.status, 0);
-  EXPECT_TRUE(says(none.output, "none of the checkpoints")) << none.output;
+  EXPECT_TRUE(holds(none.output, "none of the checkpoints")) << none.output;
   EXPECT_EQ(contents(whole.folder / "postProcessing/eccentra/coupling.csv"), table);
 }
 
@@ -99,7 +99,7 @@ TEST(Reported, adversary_5_another_mesh) {
     ASSERT_EQ(start(folder, {"blockMesh"}).status, 0);
     const ProgramResult again = start(folder, annulus_foam({"-resume"}));
     EXPECT_NE(again.status, 0) << change[1];
-    EXPECT_TRUE(says(again.output, "is not the mesh of checkpoint")) << change[1] << again.output;
+    EXPECT_TRUE(holds(again.output, "is not the mesh of checkpoint")) << change[1] << again.output;
     std::ofstream(dictionary) << usual;
   }
   // The same mesh, made again, is no other one.
@@ -117,7 +117,7 @@ TEST(Reported, adversary_5_another_interval_or_step) {
       replace_in(folder / "in.dem", "timestep 5e-5\nfix floor", "timestep 1e-4\nfix floor");
     const ProgramResult again = start(folder, annulus_foam({"-resume"}));
     EXPECT_NE(again.status, 0) << by;
-    EXPECT_TRUE(says(again.output, sentence)) << by << again.output;
+    EXPECT_TRUE(holds(again.output, sentence)) << by << again.output;
   };
   expect("in.dem", "every 40", "every 20", "timestep is 0.0001");
   expect("system/controlDict", "deltaT 0.002", "deltaT 0.001", "");
@@ -133,13 +133,13 @@ TEST(Reported, resume_script_that_does_not_read_the_checkpoint) {
     std::ofstream(folder / "in.dem") << changed;
     const ProgramResult again = start(folder, annulus_foam({"-resume"}));
     EXPECT_NE(again.status, 0) << sentence;
-    EXPECT_TRUE(says(again.output, sentence)) << sentence << again.output;
+    EXPECT_TRUE(holds(again.output, sentence)) << sentence << again.output;
     EXPECT_EQ(contents(folder / "postProcessing/eccentra/coupling.csv"), table) << sentence;
     EXPECT_EQ(eccentra::link::numbered_entries(folder / "checkpoints", ""), steps) << sentence;
   };
   const auto with = [&](const std::string& part, const std::string& by) {
     std::string text = script;
-    EXPECT_TRUE(says(text, part)) << part;
+    EXPECT_TRUE(holds(text, part)) << part;
     return text.replace(text.find(part), part.size(), by);
   };
   expect(with("resumable\n", ""), "write the line 'resumable' before it");
@@ -162,7 +162,7 @@ TEST(Reported, resume_any_script_goes_on_from_any_signal) {
   // Several runs, a loop, run every, groups, text files: none of it is done twice or left out.
   BoxCase box = stirred_box("solver every 40 checkpoint auto", kSteps, true, false, true);
   const std::string last = "run 960 upto\n";
-  ASSERT_TRUE(says(box.script, last));
+  ASSERT_TRUE(holds(box.script, last));
   box.script.replace(
       box.script.find(last), last.size(),
       "group low region spout\nvariable n loop 3\nlabel again\nrun 120\nvelocity low set 0 0 0.05\nnext n\n"
@@ -197,7 +197,7 @@ TEST(Reported, resume_any_script_goes_on_from_any_signal) {
     const ProgramResult again = start(folder, annulus_foam({"-resume"}));
     EXPECT_EQ(again.status, 0) << end.where << again.output << contents(folder / "log.liggghts");
     if (end.signal == SIGKILL) {
-      EXPECT_TRUE(says(again.output, "goes on from checkpoint " + std::to_string(end.step))) << again.output;
+      EXPECT_TRUE(holds(again.output, "goes on from checkpoint " + std::to_string(end.step))) << again.output;
     }
     EXPECT_EQ(result_of(folder), whole.result) << end.where;
   }
@@ -222,8 +222,8 @@ TEST(Reported, resume_beside_fields_that_a_kill_left_in_pieces) {
     ASSERT_GE(cut, 6) << "fields, their older levels and OpenFOAM's own state";
     const ProgramResult again = start(folder, annulus_foam({"-resume"}));
     EXPECT_EQ(again.status, 0) << kept << again.output;
-    EXPECT_TRUE(says(again.output, "goes on from checkpoint 960")) << again.output;
-    EXPECT_TRUE(says(again.output, "is not whole, as an interrupted run leaves it: removed")) << again.output;
+    EXPECT_TRUE(holds(again.output, "goes on from checkpoint 960")) << again.output;
+    EXPECT_TRUE(holds(again.output, "is not whole, as an interrupted run leaves it: removed")) << again.output;
     EXPECT_EQ(result_of(folder), whole.result) << kept;
     for (const char* field : {"U", "U_0", "p", "phi", "alpha"})
       EXPECT_TRUE(contents(folder / last.filename() / field) == contents(last / field)) << field << kept;

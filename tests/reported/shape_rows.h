@@ -5,12 +5,12 @@
 
 #include "shape/shape_keywords.h"
 #include "shape/vtk/stl_shape.h"
-#include "support/run_program.h"
+#include "support/granular_script.h"
+#include "support/program_output.h"
+#include "support/read_file.h"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -52,40 +52,14 @@ inline ProgramResult shell(const std::string& command) {
   return run_program({"/bin/sh", "-c", command});
 }
 
-inline std::string tool(const std::string& name) {
-  return required_environment("ECCENTRA_BIN") + "/" + name;
-}
-
 /// A script with one cluster template; what it prints. `then` follows the template.
 inline ProgramResult dem(const std::string& shape, const std::string& then = "") {
-  std::ofstream("shape.in") << R"(atom_style granular
-atom_modify map array
-boundary f f f
-newton off
-communicate single vel yes
-units si
-region box block -0.05 0.05 -0.05 0.05 -0.05 0.05 units box
-create_box 1 box
-neighbor 0.001 bin
-neigh_modify delay 0
-fix m1 all property/global youngsModulus peratomtype 5e6
-fix m2 all property/global poissonsRatio peratomtype 0.25
-fix m3 all property/global coefficientRestitution peratomtypepair 1 0.9
-fix m4 all property/global coefficientFriction peratomtypepair 1 0.5
-pair_style gran/cluster model hertz tangential history
-pair_coeff * *
-timestep 1e-6
-fix r all particletemplate/cluster 15485867 atom_type 1 density constant 2500 shape )"
-                            << shape << "\n"
-                            << then;
-  return run_program({tool("eccentra-dem"), "-in", "shape.in"});
-}
-
-inline std::string text_of(const std::string& name) {
-  std::ifstream in(name);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+  write_file("./shape.in",
+             granular_box() + granular_material({5e6, 0.9, 0.5, 0.25}) + cluster_contacts() +
+                 "timestep 1e-6\nfix r all particletemplate/cluster 15485867 atom_type 1 density constant "
+                 "2500 shape " +
+                 shape + "\n" + then);
+  return run_program({program("eccentra-dem"), "-in", "shape.in"});
 }
 
 } // namespace eccentra::test

@@ -120,8 +120,9 @@ TEST(Reported, clump_spheres_that_coincide) {
 TEST(Reported, clump_read_by_stock) {
   // Stock's own reader takes a file with chosen mass properties: "#:" begins a comment.
   write_stl("box.stl", box(Vector3d(1, .5, .5), Vector3d::Zero()));
-  ASSERT_EQ(shell(tool("clusterShape") + " stl box.stl --spheres 5 --scale 1e-3 --mass solid -o box.clump").status, 0);
-  ASSERT_NE(text_of("box.clump").find("\n#: inertia "), std::string::npos);
+  ASSERT_EQ(shell(program("clusterShape") + " stl box.stl --spheres 5 --scale 1e-3 --mass solid -o box.clump").status,
+            0);
+  ASSERT_NE(contents("box.clump").find("\n#: inertia "), std::string::npos);
   std::ofstream("stock.in") << R"(atom_style granular
 boundary f f f
 newton off
@@ -140,12 +141,12 @@ print "stock took it"
 TEST(Reported, empty_words_of_shape_tools) {
   for (const char* arguments : {"cube 8 -o ''", "cube 8 --output ''", "cube 8 --vtk ''", "cube 8 --png ''",
                                 "advise cube --error 0.05 --data ''", "stl x.stl --spheres ''", "''", "file ''"}) {
-    const ProgramResult run = shell(tool("clusterShape") + " " + arguments);
+    const ProgramResult run = shell(program("clusterShape") + " " + arguments);
     EXPECT_GT(run.status, 0) << arguments;
     EXPECT_NE(run.output, "") << arguments;
   }
   const auto home = fresh_folder("nowhere");
-  const ProgramResult keys = run_program({tool("eccentra-keys"), ""}, {home, {}, 60});
+  const ProgramResult keys = run_program({program("eccentra-keys"), ""}, {home, {}, 60});
   EXPECT_GT(keys.status, 0);
   expect_parts(keys.output, {"eccentra-keys: error", "empty"});
   EXPECT_TRUE(std::filesystem::is_empty(home));
@@ -159,7 +160,7 @@ TEST(Reported, full_standard_output_of_shape_tools) {
         std::string("clusterShape --help"), std::string("clusterShape compare cube 8 disk 7"),
         std::string("clusterShape advise disk --error 0.1"), std::string("eccentra-keys --help"),
         std::string("eccentra-keys keys"), std::string("annulusReport --help")}) {
-    const ProgramResult run = shell(required_environment("ECCENTRA_BIN") + "/" + arguments + " > /dev/full");
+    const ProgramResult run = shell(program(arguments) + " > /dev/full");
     EXPECT_GT(run.status, 0) << arguments;
     expect_parts(run.output, {"standard output cannot be written"});
   }

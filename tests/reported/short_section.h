@@ -3,8 +3,7 @@
 // A short section of cases/tomren-section, changed on one side alone, and what its programs say.
 #pragma once
 
-#include "support/read_file.h"
-#include "support/run_program.h"
+#include "reported/programs_of_a_run.h"
 
 #include <gtest/gtest.h>
 
@@ -20,21 +19,6 @@
 namespace eccentra::test {
 
 namespace fs = std::filesystem;
-
-inline void replace(const fs::path& file, const std::string& part, const std::string& by) {
-  std::string text = contents(file);
-  const auto at = text.find(part);
-  ASSERT_NE(at, std::string::npos) << "'" << part << "' is not in " << file;
-  write_file(file, text.replace(at, part.size(), by));
-}
-
-inline bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-inline std::string bin(const std::string& program) {
-  return required_environment("ECCENTRA_BIN") + "/" + program;
-}
 
 inline std::vector<std::string> with_ranks(int ranks, std::vector<std::string> arguments) {
   if (ranks > 1) {
@@ -65,21 +49,21 @@ class Section {
     for (const char* part : {"0", "constant", "system", "in.cuttings"})
       fs::copy(source / part, folder_ / part, fs::copy_options::recursive);
     fs::create_directories(folder_ / "postProcessing/eccentra");
-    replace(folder_ / "system/annulusMeshDict", "length          0.3", "length          0.06");
-    replace(folder_ / "system/annulusMeshDict", "(8 32 20)", "(6 24 4)");
-    replace(folder_ / "constant/couplingProperties", "steps 100", "steps 2");
-    replace(folder_ / "in.cuttings", "length       index 0.3", "length       index 0.06");
-    replace(folder_ / "in.cuttings", "count        index 1212", "count        index 20");
-    replace(folder_ / "in.cuttings", "seconds      index 3.0", "seconds      index 0.01");
+    replace_in(folder_ / "system/annulusMeshDict", "length          0.3", "length          0.06");
+    replace_in(folder_ / "system/annulusMeshDict", "(8 32 20)", "(6 24 4)");
+    replace_in(folder_ / "constant/couplingProperties", "steps 100", "steps 2");
+    replace_in(folder_ / "in.cuttings", "length       index 0.3", "length       index 0.06");
+    replace_in(folder_ / "in.cuttings", "count        index 1212", "count        index 20");
+    replace_in(folder_ / "in.cuttings", "seconds      index 3.0", "seconds      index 0.01");
     for (const Change& change : changes)
       if (!change.file.empty())
-        replace(folder_ / change.file, change.part, change.by);
+        replace_in(folder_ / change.file, change.part, change.by);
   }
 
   const fs::path& folder() const { return folder_; }
 
   void mesh(int ranks = 1) {
-    const ProgramResult made = run_program({bin("annulusMesh")}, {folder_, {}, 60});
+    const ProgramResult made = run_program({program("annulusMesh")}, {folder_, {}, 60});
     ASSERT_EQ(made.status, 0) << made.output;
     if (ranks == 1)
       return;
@@ -93,7 +77,7 @@ class Section {
   }
 
   ProgramResult solve(int ranks = 1, std::vector<std::string> environment = {}) const {
-    std::vector<std::string> arguments = {bin("annulusFoam")};
+    std::vector<std::string> arguments = {program("annulusFoam")};
     if (ranks > 1)
       arguments.emplace_back("-parallel");
     return run_program(with_ranks(ranks, arguments), {folder_, std::move(environment), 150});
@@ -118,13 +102,13 @@ class Section {
   }
 
   void use_socket(const std::string& address) {
-    replace(folder_ / "in.cuttings", "link solver every", "link socket " + address + " wait 60 every");
-    replace(folder_ / "constant/couplingProperties", "link            solver;",
-            "link            socket;\naddress         \"" + address + "\";\nwait            60;");
+    replace_in(folder_ / "in.cuttings", "link solver every", "link socket " + address + " wait 60 every");
+    replace_in(folder_ / "constant/couplingProperties", "link            solver;",
+               "link            socket;\naddress         \"" + address + "\";\nwait            60;");
   }
 
   ProgramResult particles(int ranks) const {
-    return run_program(with_ranks(ranks, {bin("eccentra-dem"), "-in", "in.cuttings", "-log", "log.liggghts"}),
+    return run_program(with_ranks(ranks, {program("eccentra-dem"), "-in", "in.cuttings", "-log", "log.liggghts"}),
                        {folder_, {}, 150});
   }
 

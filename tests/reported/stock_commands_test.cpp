@@ -90,7 +90,7 @@ TEST(Reported, displace_atoms_rotate) {
 TEST(Reported, displace_atoms_rotate_bed) {
   // Turned by 90 degrees about the axis of the square box, the bed is the same bed with x and y exchanged: it stays at
   // rest on its floor, none is lost, and as many contacts are there. (Tangential springs at walls are not turned.)
-  Session session(bed("region box block -0.001 0.021 -0.001 0.021 -0.002 0.06 units box\n") + settle);
+  Session session(bed() + settle);
   auto& history = *styles::FixClusterHistory::find(&session.lammps());
   session.run("run 0");
   const double before = history.compute_scalar();
@@ -131,14 +131,13 @@ TEST(Reported, clear_in_loop) {
 }
 
 TEST(Reported, delete_atoms) {
-  const std::string start = bed("region box block -0.001 0.021 -0.001 0.021 -0.002 0.06 units box\n") + settle;
+  const std::string start = bed() + settle;
   for (const std::string ranks : {"1", "2"}) {
     std::vector<double> of_way[2];
     for (const bool compress : {false, true}) {
       write_here("in.script", start + "delete_atoms group lonely compress " + (compress ? "yes" : "no") + "\nrun 8\n");
-      const ProgramResult result =
-          run_program({"mpirun", "--oversubscribe", "-np", ranks,
-                       required_environment("ECCENTRA_BIN") + "/eccentra-dem", "-in", "in.script", "-log", "none"});
+      const ProgramResult result = run_program(
+          {"mpirun", "--oversubscribe", "-np", ranks, program("eccentra-dem"), "-in", "in.script", "-log", "none"});
       ASSERT_EQ(result.status, 0) << result.output;
       of_way[compress] = columns(result.output, 12008);
       const std::vector<double> first = columns(result.output, 12000);
@@ -154,7 +153,7 @@ TEST(Reported, delete_atoms) {
 
 TEST(Reported, delete_atoms_in_a_bed) {
   // Bodies out of the middle: ids without gaps and in their order, and contacts with those that stay.
-  Session session(bed("region box block -0.001 0.021 -0.001 0.021 -0.002 0.06 units box\n") + settle);
+  Session session(bed() + settle);
   auto& history = *styles::FixClusterHistory::find(&session.lammps());
   session.run("group some id 3 7\n");
   std::map<std::pair<int, int>, std::size_t> kept;

@@ -145,7 +145,7 @@ TEST(Reported, stranger_on_tcp) {
   // Where nobody comes but strangers, the wait has an end.
   Section alone("alone");
   alone.use_socket(address);
-  replace(alone.folder() / "constant/couplingProperties", "wait            60", "wait            2");
+  replace_in(alone.folder() / "constant/couplingProperties", "wait            60", "wait            2");
   alone.mesh();
   auto fluid = std::async(std::launch::async, [&] { return alone.solve(); });
   const int silent = connect_to(port);

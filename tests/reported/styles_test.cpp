@@ -115,7 +115,7 @@ void expect_one_sentence(const std::string& sentence, const StockStyle& style) {
 } // namespace
 
 TEST(Reported, heat_gran) {
-  expect_refused(run_script(std::string(box) + material + contacts +
+  expect_refused(run_script(box + material + contacts +
                             "fix m5 all property/global thermalConductivity peratomtype 100.\n"
                             "fix m6 all property/global thermalCapacity peratomtype 10.\n"
                             "fix heat all heat/gran initial_temperature 300.\n" +
@@ -129,13 +129,12 @@ TEST(Reported, heat_gran_conduction) {
 }
 
 TEST(Reported, cluster_in_no_integrator) {
-  const std::string still = std::string(box) + material + contacts + cubes;
+  const std::string still = box + material + contacts + cubes;
   expect_refused(run_script(still + one_body), {"atom 1", "moved by no fix", "nve/cluster"});
   // A group that the body is not in; two ranks say it once.
   write_here("in.script", scene_with_one_body() + "group none id 999\nunfix move\nfix move none nve/cluster\nrun 1\n");
-  const ProgramResult two =
-      run_program({"mpirun", "--oversubscribe", "-np", "2", required_environment("ECCENTRA_BIN") + "/eccentra-dem",
-                   "-in", "in.script", "-log", "none"});
+  const ProgramResult two = run_program(
+      {"mpirun", "--oversubscribe", "-np", "2", program("eccentra-dem"), "-in", "in.script", "-log", "none"});
   expect_refused(two, {"atom 1", "moved by no fix"});
   // Held by fix freeze, or without a step, it is as it was meant.
   Session session(scene_with_one_body() + "unfix move\nrun 0\nfix hold all freeze\nrun 1\n");
@@ -177,27 +176,26 @@ TEST(Reported, refused_before_a_run) {
   for (const StockStyle* style : refused_styles()) {
     if (style->kind != StockKind::fix && style->kind != StockKind::compute && style->kind != StockKind::dump)
       continue;
-    Session session(std::string(box) + material + contacts + use_of(*style) + "\n");
+    Session session(box + material + contacts + use_of(*style) + "\n");
     expect_one_sentence(session.refusal(later), *style);
     ++tried;
   }
   EXPECT_GT(tried, 60);
   for (const std::string style : {"gran model hertz tangential history", "soft 1.0"}) {
-    Session session(std::string(box) + material + "pair_style " + style + "\n" +
+    Session session(box + material + "pair_style " + style + "\n" +
                     (style[0] == 's' ? "pair_coeff * * 1.0 0.01\n" : "pair_coeff * *\n"));
     EXPECT_EQ(session.refusal(later).find("pair_style: '" + style.substr(0, 4) + "' is not offered with clusters"), 0u);
   }
-  Session respa(std::string(box) + material + contacts + "run_style respa 2 2 pair 1\n");
+  Session respa(box + material + contacts + "run_style respa 2 2 pair 1\n");
   expect_one_sentence(respa.refusal(later), *styles::find_stock_style(StockKind::run_style, "respa"));
-  Session flat("dimension 2\n" + std::regex_replace(std::string(box), std::regex("f f f"), "f f p") + material +
-               contacts);
+  Session flat("dimension 2\n" + std::regex_replace(box, std::regex("f f f"), "f f p") + material + contacts);
   // Stock's own sentence comes first, at the template; a run would say "dimension: '2'".
   EXPECT_NE(flat.refusal(later).find("3D"), std::string::npos);
 }
 
 TEST(Reported, refused_for_late_bodies) {
   // Bodies that come within a run into a group that something else moves.
-  Session session(std::string(box) + material + contacts + cubes +
+  Session session(box + material + contacts + cubes +
                   "group late id 999\nfix turn late move rotate 0 0 0 1 0 0 0.4\nfix move all nve/cluster\nrun 0\n");
   const std::string insertion = std::regex_replace(std::string(one_body), std::regex("fix pa all"), "fix pa late");
   EXPECT_EQ(session.refusal(insertion).find("fix turn: 'move' is not offered with clusters"), 0u);
@@ -205,7 +203,7 @@ TEST(Reported, refused_for_late_bodies) {
 
 TEST(Reported, groups_of_plain_spheres) {
   // What acts on the members of its group alone may act on plain spheres beside bodies.
-  Session session(std::string(box) + material + contacts + cubes +
+  Session session(box + material + contacts + cubes +
                   "create_atoms 1 single 0.02 0.02 0.02 units box\nset atom 1 diameter 2e-3 density 2500\n"
                   "group spheres id 1\ngroup cubes initialize\n"
                   "fix turn spheres move rotate 0 0 0 1 0 0 0.4\nfix move cubes nve/cluster\n" +
@@ -217,7 +215,7 @@ TEST(Reported, groups_of_plain_spheres) {
 TEST(Reported, nothing_refused_without_clusters) {
   // The same library, the same arguments, no cluster.
   const ProgramResult result = run_script(
-      std::string(box) + material +
+      box + material +
       "pair_style gran model hertz tangential history\npair_coeff * *\n"
       "create_atoms 1 single 0 0 0 units box\ncreate_atoms 1 single 0.01 0 0 units box\n"
       "create_atoms 1 single 0.02 0 0 units box\ngroup first id 1\n"

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Words that meant something else for clusters than they do in stock: each is obeyed, or refused in one sentence.
-#include "support/run_program.h"
+#include "support/granular_script.h"
+#include "support/program_output.h"
 
 #include <gtest/gtest.h>
 
@@ -18,21 +19,8 @@ namespace {
 using namespace eccentra::test;
 
 /// A scene up to its integrator; a test replaces or appends lines.
-const std::string head = R"(atom_style granular
-atom_modify map array
-boundary p p f
-newton off
-communicate single vel yes
-units si
-region box block 0 0.03 0 0.03 -0.002 0.05 units box
-create_box 1 box
-neighbor 0.001 bin
-neigh_modify delay 0
-fix m1 all property/global youngsModulus peratomtype 5e6
-fix m2 all property/global poissonsRatio peratomtype 0.3
-fix m3 all property/global coefficientRestitution peratomtypepair 1 0.3
-fix m4 all property/global coefficientFriction peratomtypepair 1 0.5
-pair_style gran/cluster model hertz tangential history
+const std::string head = granular_box("0 0.03 0 0.03 -0.002 0.05", "p p f") + granular_material({5e6, 0.3, 0.5, 0.3}) +
+                         R"(pair_style gran/cluster model hertz tangential history
 pair_coeff * *
 timestep 2e-5
 fix floor all wall/gran/cluster model hertz tangential history primitive type 1 zplane 0.0
@@ -53,8 +41,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 ProgramResult run_script(const std::string& script, const std::string& name = "scene") {
   const auto folder = fresh_folder(name);
   write_file(folder / "in.script", script);
-  return run_program({required_environment("ECCENTRA_BIN") + "/eccentra-dem", "-in", "in.script", "-log", "none"},
-                     {folder, {}, 250});
+  return run_program({program("eccentra-dem"), "-in", "in.script", "-log", "none"}, {folder, {}, 250});
 }
 
 /// The numbers behind "RESULT" in what a script has printed last.
@@ -374,15 +361,15 @@ TEST(Reported, keywords_of_stock_styles) {
       {"zplane 0.0", "zplane 0.0 shear x 1.0", "shear"},
       {"zplane 0.0", "zplane 0.0 temperature 300", "temperature"},
       {"zplane 0.0", "zplane 0.0 contact_area overlap", "contact_area"},
-      {"zplane 0.0", "zplane 0.0 store_force yes", "store_force 'yes'"},
+      {"zplane 0.0", "zplane 0.0 store_force yes", "'store_force': 'yes'"},
       {"zplane 0.0", "zplane 0.0 store_force no", nullptr},
-      {"zplane 0.0", "zplane 0.0 store_force_contact yes", "store_force_contact 'yes'"},
+      {"zplane 0.0", "zplane 0.0 store_force_contact yes", "'store_force_contact': 'yes'"},
       {"zplane 0.0", "zplane 0.0 store_force_contact_stress yes", "store_force_contact_stress"},
       {"zplane 0.0", "zplane 0.0 track_energy yes", "track_energy"},
       {"zplane 0.0", "zplane 0.0 limitForce on", nullptr},
       {"history primitive", "no_history primitive", nullptr},
-      {"history primitive", "history cohesion bubble primitive", "cohesion 'bubble'"},
-      {"history primitive", "history surface superquadric primitive", "surface 'superquadric'"},
+      {"history primitive", "history cohesion bubble primitive", "cohesion: 'bubble'"},
+      {"history primitive", "history surface superquadric primitive", "'surface': 'superquadric'"},
       {"history primitive", "history surface default cohesion off primitive", nullptr},
       // nve/sphere
       {"nve/cluster", "nve/cluster update dipole", "update"},

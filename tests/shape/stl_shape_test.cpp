@@ -181,7 +181,7 @@ TEST(StlWords, BadOnesEarnASentence) {
   expect_sentence(refusal({"stl", "empty.stl", "spheres", "5"}), {"empty.stl", "no triangles"});
   expect_sentence(refusal({"stl", "flat.stl", "spheres", "5"}), {"flat.stl", "no volume"});
   expect_sentence(refusal({"stl", "cube.stl", "spheres", "none"}), {"none", "whole number"});
-  expect_sentence(refusal({"stl", "cube.stl", "spheres", "2", "mass", "air"}), {"air", "solid or union"});
+  expect_sentence(refusal({"stl", "cube.stl", "spheres", "2", "mass", "air"}), {"air", "union or solid"});
   expect_sentence(refusal({"stl", "cube.stl", "spheres", "2", "scale", "-1"}), {"scale", "-1"});
   expect_sentence(refusal({"stl", "cube.stl", "spheres", "4000", "resolution", "8"}), {"only", "4000", "resolution"});
   expect_sentence(refusal({"stl", "cube.stl", "error", "1e-4", "resolution", "8"}), {"only", "resolution"});

@@ -3,6 +3,7 @@
 // STL arguments, and the measures of how spheres stand for a solid.
 #include "shape/vtk/stl_shape.h"
 
+#include "base/refusal.h"
 #include "shape/directions.h"
 #include "shape/eccentricity.h"
 #include "shape/shape_family.h"
@@ -30,7 +31,7 @@ const std::vector<ShapeOption> kOptions = {
     {"mass", "mass, centre and inertia of: union (the spheres; default) or solid"},
     {"cover", "inside (default), or balanced: spheres grow until their union has the volume of the solid"},
     {"missing", "part of the volume that spheres may lack before they are refused; default 0.5"}};
-constexpr long kMaxSpheres = 4096, kMinResolution = 8, kMaxResolution = 400;
+constexpr int kMaxSpheres = 4096, kMinResolution = 8, kMaxResolution = 400;
 /// Missing part of the volume that a note remarks upon.
 constexpr double kMuchMissing = 0.2;
 /// Spheres that stand out by more than this part of the equivalent radius: remarked upon.
@@ -82,69 +83,52 @@ MassProperties properties_of(const Solid& solid, const std::vector<Sphere>& sphe
   return mass_of == MassOf::solid ? solid.properties() : measure_union(spheres).properties;
 }
 
-ClusterShape make(const ShapeRequest& request, std::size_t& used, Notes& notes) {
-  const StlRequest wanted = read_stl_request(request.arguments, request.first, used);
-  const Solid solid(wanted.path, wanted.scale);
-  return shape_of_solid(solid, cover_of(solid, wanted), wanted, request.diameter, notes);
+ClusterShape make(base::OptionReader& words, double diameter, Notes& notes) {
+  const StlRequest request = read_stl_request(words);
+  const Solid solid(request.path, request.scale);
+  return shape_of_solid(solid, cover_of(solid, request), request, diameter, notes);
 }
 
 } // namespace
 
-StlRequest read_stl_request(const std::vector<std::string>& arguments, std::size_t first, std::size_t& used) {
+StlRequest read_stl_request(base::OptionReader& words) {
   StlRequest request;
-  request.path = word_at(arguments, first + 1, "the name of an STL file after 'stl'");
-  const std::string of = " of '" + request.path + "'";
-  const auto one_of = [&](const std::string& key, const std::string& value, const char* no, const char* yes) {
-    if (value != no && value != yes)
-      throw std::invalid_argument(key + of + " is '" + value + "': choose " + yes + " or " + no);
-    return value == yes;
-  };
-  const auto part = [&](const std::string& value, const std::string& what) {
-    const double number = positive_number(value, what);
-    if (number >= 1)
-      throw std::invalid_argument(what + " is '" + value +
-                                  "': give the part of the volume that may be missing, below 1, such as 0.05");
-    return number;
-  };
+  request.path = words.value("the name of an STL file");
   std::set<std::string> given;
-  used = 2;
-  for (std::size_t k = first + 2; k < arguments.size(); k += 2, used += 2) {
-    const std::string& key = arguments[k];
-    if (std::none_of(kOptions.begin(), kOptions.end(), [&](const ShapeOption& option) { return option.name == key; }))
-      break;
+  const auto is_option = [](const std::string& word) {
+    return std::any_of(kOptions.begin(), kOptions.end(),
+                       [&](const ShapeOption& option) { return option.name == word; });
+  };
+  while (words.more() && is_option(words.peek())) {
+    const std::string& key = words.keyword();
     if (!given.insert(key).second)
-      throw std::invalid_argument("'" + key + "'" + of + " is given twice: give it once");
-    const std::string& value = word_at(arguments, k + 1, "a value after '" + key + "'");
+      base::refuse("shape stl '{}': '{}' is given twice; expected it once", request.path, key);
     if (key == "spheres") {
-      const long count = whole_number(value, "number of spheres" + of);
-      if (count > kMaxSpheres)
-        throw std::invalid_argument("number of spheres" + of + " is '" + value + "': give at most " +
-                                    std::to_string(kMaxSpheres));
-      request.options.spheres = static_cast<int>(count);
+      request.options.spheres = words.count(1, "spheres");
+      if (request.options.spheres > kMaxSpheres)
+        base::refuse("keyword 'spheres': '{}' is too many; expected at most {}", request.options.spheres, kMaxSpheres);
     } else if (key == "error") {
-      request.options.volume_error = part(value, "volume error" + of);
+      request.options.volume_error = words.between(0, 1, "the part of the volume that may be missing");
     } else if (key == "missing") {
-      request.max_missing = part(value, "missing" + of);
+      request.max_missing = words.between(0, 1, "the part of the volume that may be missing");
     } else if (key == "resolution") {
-      const long points = whole_number(value, "resolution" + of);
-      if (points < kMinResolution || points > kMaxResolution)
-        throw std::invalid_argument("resolution" + of + " is '" + value + "': give " + std::to_string(kMinResolution) +
-                                    " to " + std::to_string(kMaxResolution) + " points along the longest side");
-      request.options.resolution = static_cast<int>(points);
+      request.options.resolution = words.count(kMinResolution, "points along the longest side");
+      if (request.options.resolution > kMaxResolution)
+        base::refuse("keyword 'resolution': '{}' is too many; expected {} to {} points along the longest side",
+                     request.options.resolution, kMinResolution, kMaxResolution);
     } else if (key == "scale") {
-      request.scale = positive_number(value, "scale" + of);
+      request.scale = words.positive();
       request.scale_given = true;
     } else if (key == "mass") {
-      request.mass_of = one_of("mass", value, "union", "solid") ? MassOf::solid : MassOf::spheres;
+      request.mass_of = words.choice({"union", "solid"}) == "solid" ? MassOf::solid : MassOf::spheres;
     } else {
-      request.cover = one_of("cover", value, "inside", "balanced") ? Cover::balanced : Cover::inside;
+      request.cover = words.choice({"inside", "balanced"}) == "balanced" ? Cover::balanced : Cover::inside;
     }
   }
   if (request.options.spheres == 0 && request.options.volume_error == 0)
-    throw std::invalid_argument(
-        "shape stl '" + request.path +
-        "' needs to know where to stop: give 'spheres N' or 'error E' (clusterShape: --spheres N, "
-        "--error E)");
+    base::refuse("shape stl '{}': no word says how many spheres; expected 'spheres N' or 'error E' (clusterShape: "
+                 "--spheres N, --error E)",
+                 request.path);
   return request;
 }
 

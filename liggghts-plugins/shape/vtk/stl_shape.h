@@ -3,6 +3,7 @@
 // Shapes from STL files, and the deviation of the spheres from the solid.
 #pragma once
 
+#include "base/option_reader.h"
 #include "shape/cluster_shape.h"
 #include "shape/vtk/inscribed_spheres.h"
 #include "shape/vtk/solid.h"
@@ -28,9 +29,8 @@ struct StlRequest {
   Cover cover = Cover::inside;
   double max_missing = 0.5; ///< part of the volume that spheres inside may lack
 };
-/// Reads arguments[first] (`stl`) and what follows; `used` becomes the number of arguments. Throws
-/// std::invalid_argument.
-StlRequest read_stl_request(const std::vector<std::string>& arguments, std::size_t first, std::size_t& used);
+/// Reads the words behind `stl`, and no others. Throws std::invalid_argument.
+StlRequest read_stl_request(base::OptionReader& words);
 
 /// The spheres of a request. Throws std::invalid_argument if they lack more of the volume of the solid than
 /// `max_missing` and `error` allow, or if they do not lie in the solid.

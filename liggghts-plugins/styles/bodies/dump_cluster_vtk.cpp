@@ -3,6 +3,7 @@
 // dump cluster/vtk: gathers bodies on the first rank, which draws them from the table of shapes.
 #include "styles/bodies/dump_cluster_vtk.h"
 
+#include "base/option_reader.h"
 #include "shape/drawn_surface.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/entry/style_registry.h"
@@ -29,6 +30,7 @@
 #include <cstring>
 #include <map>
 #include <numeric>
+#include <stdexcept>
 
 namespace eccentra::styles {
 
@@ -36,7 +38,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-const styles::RegisterDump<DumpClusterVtk>
+const RegisterDump<DumpClusterVtk>
     record("cluster/vtk", "sub-spheres of clusters and surfaces of rounded bodies as VTK files for ParaView");
 
 /// One body on its way to the first rank, as doubles.
@@ -153,12 +155,15 @@ DumpClusterVtk::DumpClusterVtk(LAMMPS* lmp, int narg, char** arg) : Dump(lmp, na
                        "' must hold one '*' for the time step and no '%': all ranks write "
                        "one file per step")
                           .c_str());
-  for (int at = 5; at < narg; at += 2) {
-    const std::string word = arg[at];
-    const std::string value = at + 1 < narg ? arg[at + 1] : "";
-    if (word != "rows" || (value != "spheres" && value != "bodies"))
-      error->all(FLERR, (where + "'" + word + " " + value + "' is unknown: write rows spheres or rows bodies").c_str());
-    bodies_only_ = value == "bodies";
+  try {
+    base::OptionReader reader({arg + 5, arg + narg});
+    while (reader.more()) {
+      if (reader.keyword() != "rows")
+        reader.unknown("rows spheres|bodies");
+      bodies_only_ = reader.choice({"spheres", "bodies"}) == "bodies";
+    }
+  } catch (const std::invalid_argument& problem) {
+    error->all(FLERR, (where + problem.what()).c_str());
   }
 }
 

@@ -29,8 +29,8 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-const styles::RegisterFix<FixClusterBodies>
-    registered(FixClusterBodies::style_name, "orientation and shape of clusters (made by itself, never typed)");
+const RegisterFix<FixClusterBodies> registered(FixClusterBodies::style_name,
+                                               "orientation and shape of clusters (made by itself, never typed)");
 
 /// Appends plain values to the bytes that a restart file keeps.
 class ByteWriter {

@@ -148,8 +148,8 @@ bool InsertionOverlap::overlaps(const PlacedBody& ours, const double* x,
                                 const LAMMPS_NS::RegionNeighborList<false>& near) {
   if (!current_)
     take_atoms();
-  const auto& bins = near.*styles::Published<NearBins>::pointer;
-  const auto& stencil = near.*styles::Published<NearStencil>::pointer;
+  const auto& bins = near.*Published<NearBins>::pointer;
+  const auto& stencil = near.*Published<NearStencil>::pointer;
   double position[3] = {x[0], x[1], x[2]};
   const int bin = near.coord2bin(position);
   const Eigen::Map<const Eigen::Vector3d> centre(x);

@@ -3,6 +3,7 @@
 // Goes through a script's commands for the second time.
 #include "styles/entry/script_replay.h"
 
+#include "base/option_reader.h"
 #include "link/checkpoint/checkpoint_room.h"
 #include "link/checkpoint/resume_command.h"
 #include "link/ranks.h"
@@ -31,6 +32,7 @@
 #include <filesystem>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 using namespace LAMMPS_NS;
@@ -309,18 +311,20 @@ void resume_from_variables(LAMMPS* lmp) {
 }
 
 void resumable_command(LAMMPS* lmp, int narg, char** arg) {
-  const std::string usage = ": expected resumable, or resumable every N with a whole number of steps from 1 on";
   Script& now = script();
   if (lmp->domain->box_exist != 0)
     refuse(lmp, "resumable: there is a box already: write it before create_box, read_data or read_restart");
   resume_from_variables(lmp);
   now.every = 0;
-  if (narg != 0) {
-    char* end = nullptr;
-    if (narg == 2 && std::strcmp(arg[0], "every") == 0)
-      now.every = std::strtoll(arg[1], &end, 10);
-    if (narg != 2 || end == nullptr || end == arg[1] || *end || now.every < 1 || now.every > 1000000000)
-      refuse(lmp, "resumable: '" + std::string(arg[narg > 1 ? 1 : 0]) + "' is not understood" + usage);
+  try {
+    base::OptionReader reader({arg, arg + narg});
+    while (reader.more()) {
+      if (reader.keyword() != "every")
+        reader.unknown("every N");
+      now.every = reader.count(1, "steps");
+    }
+  } catch (const std::invalid_argument& problem) {
+    refuse(lmp, std::string("resumable: ") + problem.what());
   }
   now.resumable = true;
   now.replaying = now.goes_on;

@@ -36,8 +36,8 @@ using namespace LAMMPS_NS;
 namespace eccentra::styles {
 
 namespace {
-const styles::RegisterFix<FixFluidCouple> registered("fluid/couple",
-                                                     "exchanges particles and flow with a solver every N steps");
+const RegisterFix<FixFluidCouple> registered("fluid/couple",
+                                             "exchanges particles and flow with a solver every N steps");
 
 constexpr int kCellHintDoubles = 2;
 /// Entries of the vector of stock fix insert/*.
@@ -91,8 +91,7 @@ void FixFluidCouple::connect() {
     own_peer_ = std::make_unique<link::SocketPeer>(world, link::Address(address_, keys_), timeout_,
                                                    rank_connections_ ? Rows::on_rank_connections : Rows::over_root);
     // An error of LIGGGHTS, on whatever rank, is the fluid side's news, too.
-    last_words_ =
-        std::make_unique<styles::LastWords>([this](const std::string& arguments) { own_peer_->leave(arguments); });
+    last_words_ = std::make_unique<LastWords>([this](const std::string& arguments) { own_peer_->leave(arguments); });
   } catch (const link::Refusal& refusal) {
     refuse(refusal.what());
   }
@@ -164,7 +163,7 @@ int FixFluidCouple::setmask() {
 // Tickets of all atoms are blank already; LIGGGHTS need not visit them again at the first set-up.
 void FixFluidCouple::post_create() {
   just_created = 0;
-  styles::FixCheckpoint::add(lmp, 0);
+  FixCheckpoint::add(lmp, 0);
 }
 
 void FixFluidCouple::init() {
@@ -172,9 +171,9 @@ void FixFluidCouple::init() {
   if (!forces_)
     refuse("couples a fluid that nothing feels: add fix fluid/force before the run");
   forces_->announce_source(id);
-  if (resuming_ && styles::forces_carry_on())
+  if (resuming_ && forces_carry_on())
     forces_->carry_on();
-  bodies_ = styles::FixClusterBodies::find(lmp);
+  bodies_ = FixClusterBodies::find(lmp);
   if (domain->triclinic)
     refuse("needs a box with right angles: make the simulation box orthogonal");
   if (link_ == "solver") {

@@ -103,7 +103,7 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   bool agreed_ = false;
   bool began_ = false;
   Checkpoints checkpoints_ = Checkpoints::by_clock;
-  styles::CheckpointClock clock_;
+  CheckpointClock clock_;
   int checkpoint_every_ = 0;        ///< coupling steps, if counted
   bool due_ = false;                ///< a checkpoint, at the end of this interval
   std::int64_t coupling_steps_ = 0; ///< since the beginning, also of earlier runs
@@ -114,7 +114,7 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   link::FluidPeer* peer_ = nullptr;
   std::unique_ptr<link::SocketPeer> own_peer_; ///< null with link solver
   FixFluidForce* forces_ = nullptr;
-  styles::FixClusterBodies* bodies_ = nullptr; ///< null where all particles are spheres
+  FixClusterBodies* bodies_ = nullptr; ///< null where all particles are spheres
 
   std::vector<link::CellHint> cell_hints_;    ///< per atom; migrates
   PackedParticles packed_, before_, earlier_; ///< of the last three coupling steps; `earlier_` with overlap only
@@ -124,7 +124,7 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   bool told_of_departure_ = false;
   link::wire::Bytes compared_walls_;
   bool walls_move_ = false; ///< and their velocities are still to be compared
-  std::unique_ptr<styles::LastWords> last_words_;
+  std::unique_ptr<LastWords> last_words_;
   double left_fluid_at_ = 0; ///< wall-clock time when the last coupling step ended [s]
   double waited_before_ = 0; ///< link::waiting_seconds() at that time
   link::LoadSums load_;      ///< of the present run

@@ -58,10 +58,10 @@ void FixFluidCouple::look_for_signals() {
 
 void FixFluidCouple::write_checkpoint() {
   const double begun = MPI_Wtime();
-  mark_ = styles::new_mark(lmp);
+  mark_ = new_mark(lmp);
   try {
     const std::string fluid_place = peer_->checkpoint(mark_);
-    styles::write_dem_checkpoint(lmp, mark_, {{"fluid", fluid_place}});
+    write_dem_checkpoint(lmp, mark_, {{"fluid", fluid_place}});
   } catch (const link::Refusal& refusal) {
     refuse(refusal.what());
   }
@@ -77,12 +77,11 @@ void FixFluidCouple::stop_for_signal() {
 }
 
 void FixFluidCouple::begin_checkpoints() {
-  if (styles::resumed_step() >= 0 && !resuming_ && styles::resumed_step() == update->ntimestep &&
-      !styles::resumes_alone())
-    refuse("checkpoint " + std::to_string(styles::resumed_step()) +
+  if (resumed_step() >= 0 && !resuming_ && resumed_step() == update->ntimestep && !resumes_alone())
+    refuse("checkpoint " + std::to_string(resumed_step()) +
            " has nothing of it: give it the ID that it had when the checkpoint was written");
   // The DEM side first: the fluid side, in the same folder or in another, looks after what is left.
-  styles::FixCheckpoint::find(lmp)->make_room();
+  FixCheckpoint::find(lmp)->make_room();
 }
 
 void FixFluidCouple::keep_particles() {

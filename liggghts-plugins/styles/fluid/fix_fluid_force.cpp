@@ -26,7 +26,7 @@ namespace eccentra::styles {
 
 namespace {
 
-const styles::RegisterFix<FixFluidForce>
+const RegisterFix<FixFluidForce>
     registered("fluid/force",
                "drag, lift, pressure, stress and buoyancy forces of a Herschel-Bulkley fluid on particles");
 

@@ -23,7 +23,7 @@ constexpr double kSphereInertia = 0.4;
 }
 
 void ParticleGeometry::init() {
-  bodies_ = styles::FixClusterBodies::find(lmp_);
+  bodies_ = FixClusterBodies::find(lmp_);
   if (bodies_)
     areas_.resize(bodies_->shapes().size());
   if (bodies_)

@@ -55,7 +55,7 @@ class ParticleGeometry : public closures::ShapeCatalogue {
 
   LAMMPS_NS::LAMMPS* lmp_;
   std::vector<double> sphericity_ = {1.0};
-  styles::FixClusterBodies* bodies_ = nullptr; ///< null where no cluster was declared; then nothing below is used
+  FixClusterBodies* bodies_ = nullptr; ///< null where no cluster was declared; then nothing below is used
   std::vector<double> radius_;
   std::vector<int> kind_;
   mutable std::vector<std::unique_ptr<closures::ProjectedAreaTable>> areas_; ///< by shape id, made at first use

@@ -3,6 +3,9 @@
 // Makes LIGGGHTS's models by name and hands them one sub-contact after the other.
 #include "styles/models/stock_contact.h"
 
+#include "base/refusal.h"
+#include "contact/contact_models.h"
+
 #include <mpi.h>
 
 #include "atom.h"
@@ -22,6 +25,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 namespace eccentra::styles {
@@ -112,13 +116,31 @@ template <class Visit> auto with_kind(const std::string& kind, Visit visit) {
   return visit(rolling_models());
 }
 
+std::set<std::string> stock_names(const std::string& kind) {
+  return with_kind(kind, [](const auto& models) {
+    std::set<std::string> names;
+    for (const auto& entry : models)
+      names.insert(entry.first);
+    return names;
+  });
+}
+
+std::string listed(const std::set<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names)
+    text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 template <class Map>
 auto created(const Map& models, const char* kind, const std::string& name, LAMMPS* lmp, History* history,
              Surroundings* around) {
   const auto found = models.find(name);
   if (found == models.end())
-    throw std::invalid_argument(std::string(kind) + " '" + name + "' is unknown; expected one of " +
-                                StockContact::known(kind));
+    base::refuse(
+        "{} '{}' is not one of LIGGGHTS's; expected it with tangential history or off, without rolling friction "
+        "and cohesion, or one of {}",
+        kind, name, StockContact::known(kind));
   return found->second(lmp, history, around);
 }
 
@@ -154,17 +176,19 @@ struct StockContact::Models {
 StockContact::StockContact(LAMMPS* lmp, bool wall) : lmp_(lmp), wall_(wall) {}
 StockContact::~StockContact() = default;
 
-bool StockContact::knows(const std::string& kind, const std::string& name) {
-  return with_kind(kind, [&](const auto& models) { return models.count(name) > 0; });
+std::string StockContact::read_name(base::OptionReader& reader, const std::string& kind) {
+  std::set<std::string> names = stock_names(kind);
+  if (kind == "model")
+    for (const contact::ContactModel& model : contact::contact_models())
+      names.insert(model.name);
+  std::string name = reader.value("one of " + listed(names));
+  if (!names.count(name))
+    base::refuse("{}: '{}' is not offered; expected one of {}", kind, name, listed(names));
+  return name;
 }
 
 std::string StockContact::known(const std::string& kind) {
-  return with_kind(kind, [](const auto& models) {
-    std::string text;
-    for (const auto& entry : models)
-      text += (text.empty() ? "" : ", ") + entry.first;
-    return text;
-  });
+  return listed(stock_names(kind));
 }
 
 void StockContact::choose(const StockModelNames& names, const std::vector<std::string>& options) {

@@ -3,6 +3,7 @@
 // One sub-contact at a time through LIGGGHTS's own contact models: its classes, given the sub-spheres of bodies.
 #pragma once
 
+#include "base/option_reader.h"
 #include "contact/contact_law.h"
 
 #include <memory>
@@ -55,9 +56,10 @@ class StockContact {
   StockContact(const StockContact&) = delete;
   StockContact& operator=(const StockContact&) = delete;
 
-  /// True if LIGGGHTS as it is installed has this model of `kind` (model, tangential, rolling_friction, cohesion).
-  static bool knows(const std::string& kind, const std::string& name);
-  /// The names that it has of that kind, each after a comma.
+  /// Reads the name of a model of `kind` (model, tangential, rolling_friction, cohesion): one that LIGGGHTS as it is
+  /// installed has, or a row of contact_models(). Throws std::invalid_argument with a sentence that lists them.
+  static std::string read_name(base::OptionReader& reader, const std::string& kind);
+  /// The names that LIGGGHTS has of that kind, each after a comma.
   static std::string known(const std::string& kind);
 
   /// Makes the models. `options` are keywords and values that they may ask for. Throws std::invalid_argument with one

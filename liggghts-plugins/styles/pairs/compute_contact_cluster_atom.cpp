@@ -81,8 +81,8 @@ class ComputeContactClusterAtom : public Compute {
 };
 
 namespace {
-const styles::RegisterCompute<ComputeContactClusterAtom>
-    registered("contact/cluster/atom", "coordination number and sub-contacts of each body");
+const RegisterCompute<ComputeContactClusterAtom> registered("contact/cluster/atom",
+                                                            "coordination number and sub-contacts of each body");
 }
 
 } // namespace eccentra::styles

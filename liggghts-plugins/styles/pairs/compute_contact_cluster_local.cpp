@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // compute contact/cluster/local: one row per sub-contact, with the forces that acted in the step.
+#include "base/option_reader.h"
 #include "styles/bodies/contact_records.h"
 #include "styles/entry/style_registry.h"
 #include "styles/pairs/pair_gran_cluster.h"
@@ -19,6 +20,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -128,26 +130,12 @@ const Columns all_columns[] = {
 class ComputeContactClusterLocal : public Compute {
  public:
   ComputeContactClusterLocal(LAMMPS* lmp, int& iarg, int narg, char** arg) : Compute(lmp, iarg, narg, arg) {
-    for (; iarg < narg; ++iarg) {
-      const std::string word = arg[iarg];
-      if (word == "of") {
-        const std::string value = ++iarg < narg ? arg[iarg] : "";
-        if (value != "bodies" && value != "walls" && value != "all")
-          refuse("of '" + value + "' is not a kind of contact; expected bodies, walls or all");
-        bodies_ = value != "walls";
-        walls_ = value != "bodies";
-        continue;
-      }
-      const auto* column = std::find_if(std::begin(all_columns), std::end(all_columns),
-                                        [&](const Columns& c) { return word == c.keyword; });
-      if (column == std::end(all_columns)) {
-        std::string known = "of";
-        for (const Columns& c : all_columns)
-          known += std::string(", ") + c.keyword;
-        refuse("unknown keyword '" + word + "'; expected " + known);
-      }
-      typed_[column - all_columns] = true;
+    try {
+      read_keywords({arg + iarg, arg + narg});
+    } catch (const std::invalid_argument& problem) {
+      refuse(problem.what());
     }
+    iarg = narg;
     const bool any = std::find(typed_.begin(), typed_.end(), true) != typed_.end();
     for (std::size_t k = 0; k < typed_.size(); ++k) {
       typed_[k] = any ? typed_[k] : all_columns[k].by_default;
@@ -212,6 +200,27 @@ class ComputeContactClusterLocal : public Compute {
   double memory_usage() override { return static_cast<double>(room_) * width_ * sizeof(double); }
 
  private:
+  void read_keywords(const std::vector<std::string>& arguments) {
+    std::string known = "of";
+    for (const Columns& c : all_columns)
+      known += std::string(", ") + c.keyword;
+    base::OptionReader reader(arguments);
+    while (reader.more()) {
+      const std::string& word = reader.keyword();
+      if (word == "of") {
+        const std::string& kind = reader.choice({"bodies", "walls", "all"});
+        bodies_ = kind != "walls";
+        walls_ = kind != "bodies";
+        continue;
+      }
+      const auto* column = std::find_if(std::begin(all_columns), std::end(all_columns),
+                                        [&](const Columns& c) { return word == c.keyword; });
+      if (column == std::end(all_columns))
+        reader.unknown(known);
+      typed_[column - all_columns] = true;
+    }
+  }
+
   void refuse(const std::string& sentence) {
     error->all(FLERR, ("compute " + std::string(id) + " contact/cluster/local: " + sentence).c_str());
   }

@@ -14,11 +14,10 @@ namespace {
 
 /// A name of one of stock's kinds of models.
 std::string model_name(base::OptionReader& reader, const std::string& kind) {
-  const std::string name = reader.value("one of " + StockContact::known(kind));
-  if (kind == "model" && contact::find_contact_model(name))
-    return name;
-  if (!StockContact::knows(kind, name) || name == "eccentric")
-    base::refuse("{}: '{}' is not offered for clusters; expected one of {}", kind, name, StockContact::known(kind));
+  const std::string name = StockContact::read_name(reader, kind);
+  if (name == "eccentric")
+    base::refuse("{}: 'eccentric' is not offered for clusters, which have their shape; expected another one of {}",
+                 kind, StockContact::known(kind));
   return name;
 }
 
@@ -69,12 +68,10 @@ ClusterContactKeywords read_contact_keywords(const std::vector<std::string>& arg
       words.rolling_radius =
           reader.choice({"sub_sphere", "body"}) == "body" ? RollingRadius::body : RollingRadius::sub_sphere;
     } else if (contact::stock_contact_keywords().count(keyword)) {
-      const std::string value = reader.value("on or off");
-      if (const std::string refused = contact::refused_stock_keyword(keyword, value); !refused.empty())
-        throw std::invalid_argument(refused);
+      contact::refuse_stock_keyword(keyword, reader.value("on or off"));
     } else {
       const std::string value = reader.value("a value");
-      if (contact::is_switch_of_a_model(keyword) && (value == "off" || value == "no"))
+      if (contact::is_switch_of_a_model(keyword) && !base::switch_value(value).value_or(true))
         continue; // as where nothing is written
       words.options.push_back(keyword);
       words.options.push_back(value);

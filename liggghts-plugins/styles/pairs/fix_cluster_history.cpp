@@ -23,8 +23,8 @@ namespace eccentra::styles {
 using namespace LAMMPS_NS;
 
 namespace {
-const styles::RegisterFix<FixClusterHistory> registered(FixClusterHistory::style_name,
-                                                        "history of cluster contacts (made by itself, never typed)");
+const RegisterFix<FixClusterHistory> registered(FixClusterHistory::style_name,
+                                                "history of cluster contacts (made by itself, never typed)");
 // A record: how many touches, how many doubles in all they take, and those.
 constexpr int head_words = 2, words_per_touch = 5;
 } // namespace

@@ -34,8 +34,8 @@ Pair* create_pair(LAMMPS* lmp) {
   return new PairGranCluster(lmp);
 }
 
-const styles::RegisterStyle registered({"pair_style", "gran/cluster", "contacts between clusters (and plain spheres)",
-                                        nullptr, nullptr, nullptr, nullptr, &create_pair});
+const RegisterStyle registered({"pair_style", "gran/cluster", "contacts between clusters (and plain spheres)", nullptr,
+                                nullptr, nullptr, nullptr, &create_pair});
 
 } // namespace
 

@@ -25,8 +25,7 @@ constexpr char kStyle[] = "rolling/limited";
 constexpr char kId[] = "eccentra_rolling_limited";
 constexpr double kSphereInertia = 0.4; ///< I = 2/5 m r^2, as fix nve/sphere integrates
 
-const styles::RegisterFix<FixRollingLimited> registered(kStyle,
-                                                        "torques of rolling_friction shape (made by the model)");
+const RegisterFix<FixRollingLimited> registered(kStyle, "torques of rolling_friction shape (made by the model)");
 
 } // namespace
 

@@ -10,10 +10,13 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace LAMMPS_NS {
 class LAMMPS;
+}
+
+namespace eccentra::base {
+class OptionReader;
 }
 
 namespace eccentra::styles {
@@ -42,8 +45,8 @@ struct WallRollingContact {
 class WallRolling {
  public:
   virtual ~WallRolling() = default;
-  /// Consumes this model's own arguments from arguments[at] on and advances `at`; leaves what it does not know.
-  virtual void read_arguments(const std::vector<std::string>& arguments, std::size_t& at) = 0;
+  /// Reads one keyword of this model with its value; false, with nothing read, where the next word is none of them.
+  virtual bool read_keyword(base::OptionReader& reader) = 0;
   /// Before each run: fetch coefficients. Throws std::invalid_argument with one sentence where that is not possible.
   virtual void init(LAMMPS_NS::LAMMPS* lmp) = 0;
   /// False for a model that stands for the shape of a particle, and so acts on plain spheres alone.

@@ -9,8 +9,6 @@
 #include "lammps.h"
 #include "property_registry.h"
 
-#include <stdexcept>
-
 namespace eccentra::styles {
 
 std::map<std::string, WallRollingCreator>& wall_rolling_models() {
@@ -22,13 +20,12 @@ namespace {
 
 class ConstantDirectionalTorque : public WallRolling {
  public:
-  void read_arguments(const std::vector<std::string>& arguments, std::size_t& at) override {
-    if (at >= arguments.size() || arguments[at] != "torsionTorque")
-      return;
-    base::OptionReader reader({arguments.begin() + std::ptrdiff_t(at), arguments.end()});
+  bool read_keyword(base::OptionReader& reader) override {
+    if (reader.peek() != "torsionTorque")
+      return false;
     reader.keyword();
     torsion_ = reader.on_off();
-    at += reader.at();
+    return true;
   }
 
   void init(LAMMPS_NS::LAMMPS* lmp) override {

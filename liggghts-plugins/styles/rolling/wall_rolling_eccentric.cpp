@@ -10,20 +10,17 @@
 namespace eccentra::styles {
 namespace {
 
-class EccentricWallRolling : public styles::WallRolling {
+class EccentricWallRolling : public WallRolling {
  public:
-  void read_arguments(const std::vector<std::string>& arguments, std::size_t& at) override {
-    if (at >= arguments.size())
-      return;
-    if (arguments[at] == "shape")
+  bool read_keyword(base::OptionReader& reader) override {
+    if (reader.peek() == "shape")
       throw std::invalid_argument(
           "the shape belongs to the particles: give 'shape ...' in pair_style, not at the wall");
-    if (arguments[at] != "rockingDamping")
-      return;
-    base::OptionReader reader({arguments.begin() + std::ptrdiff_t(at), arguments.end()});
+    if (reader.peek() != "rockingDamping")
+      return false;
     reader.keyword();
     damped_ = reader.on_off();
-    at += reader.at();
+    return true;
   }
 
   void init(LAMMPS_NS::LAMMPS* lmp) override {
@@ -35,7 +32,7 @@ class EccentricWallRolling : public styles::WallRolling {
 
   bool for_clusters() const override { return false; }
 
-  Eigen::Vector3d torque(const styles::WallRollingContact& contact) override {
+  Eigen::Vector3d torque(const WallRollingContact& contact) override {
     const double* const q = spheres_->orientation(contact.atom);
     const double depth = contact.elastic_normal / (contact.stiffness * contact.lever);
     const contact::ContactLoad load{contact.normal_force, damped_ ? contact.normal_damping * contact.lever : 0.0,
@@ -50,7 +47,7 @@ class EccentricWallRolling : public styles::WallRolling {
   FixSphereOrientation* spheres_ = nullptr;
 };
 
-const styles::RegisterWallRolling registered("eccentric", [] { return std::make_unique<EccentricWallRolling>(); });
+const RegisterWallRolling registered("eccentric", [] { return std::make_unique<EccentricWallRolling>(); });
 
 } // namespace
 } // namespace eccentra::styles

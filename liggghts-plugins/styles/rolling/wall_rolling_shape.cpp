@@ -21,22 +21,20 @@ namespace {
 
 class ShapeRolling : public WallRolling {
  public:
-  void read_arguments(const std::vector<std::string>& arguments, std::size_t& at) override {
-    if (at >= arguments.size())
-      return;
-    base::OptionReader reader({arguments.begin() + std::ptrdiff_t(at), arguments.end()});
-    const std::string& word = reader.keyword();
+  bool read_keyword(base::OptionReader& reader) override {
+    const std::string& word = reader.peek();
+    if (word != "form" && word != "torsionTorque" && word != "rollingDampingRatio")
+      return false;
+    reader.keyword();
     if (word == "form") {
       const std::string& form = reader.choice({"limited", "directional", "epsd"});
       form_ = form == "limited" ? Form::limited : form == "directional" ? Form::directional : Form::epsd;
     } else if (word == "torsionTorque") {
       torsion_ = reader.on_off();
-    } else if (word == "rollingDampingRatio") {
-      damping_ratio_ = reader.at_least(0);
     } else {
-      return;
+      damping_ratio_ = reader.at_least(0);
     }
-    at += reader.at();
+    return true;
   }
 
   void init(LAMMPS_NS::LAMMPS* lmp) override {

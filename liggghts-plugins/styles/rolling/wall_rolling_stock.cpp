@@ -13,7 +13,8 @@
 #include "settings.h"
 
 #include <algorithm>
-#include <stdexcept>
+#include <memory>
+#include <string>
 
 namespace eccentra::styles {
 namespace {
@@ -48,13 +49,12 @@ template <int Rolling> class StockWallRolling : public WallRolling {
   /// `option`: the one on/off word that may follow, or null.
   explicit StockWallRolling(const char* option) : option_(option) {}
 
-  void read_arguments(const std::vector<std::string>& arguments, std::size_t& at) override {
-    if (!option_ || at >= arguments.size() || arguments[at] != option_)
-      return;
-    base::OptionReader reader({arguments.begin() + std::ptrdiff_t(at), arguments.end()});
+  bool read_keyword(base::OptionReader& reader) override {
+    if (!option_ || reader.peek() != option_)
+      return false;
     reader.keyword();
     on_ = reader.on_off();
-    at += reader.at();
+    return true;
   }
 
   void init(LAMMPS_NS::LAMMPS* lmp) override {

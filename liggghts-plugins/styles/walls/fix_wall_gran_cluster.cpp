@@ -27,8 +27,8 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-const styles::RegisterFix<FixWallGranCluster>
-    registered("wall/gran/cluster", "walls for clusters and plain spheres: planes, cylinders, meshes");
+const RegisterFix<FixWallGranCluster> registered("wall/gran/cluster",
+                                                 "walls for clusters and plain spheres: planes, cylinders, meshes");
 
 } // namespace
 

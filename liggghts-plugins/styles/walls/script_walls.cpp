@@ -51,19 +51,19 @@ struct WallShearSpeed {
 } // namespace eccentra::styles
 
 namespace eccentra::styles {
-template struct PrivateMember<styles::WallKind, &LAMMPS_NS::PrimitiveWall::wType>;
-template struct PrivateMember<styles::WallNumbers, &LAMMPS_NS::PrimitiveWall::param>;
-template struct PrivateMember<styles::WallShears, &LAMMPS_NS::FixWallGran::shear_>;
-template struct PrivateMember<styles::WallShearDirection, &LAMMPS_NS::FixWallGran::shearDim_>;
-template struct PrivateMember<styles::WallShearAxis, &LAMMPS_NS::FixWallGran::shearAxis_>;
-template struct PrivateMember<styles::WallShearSpeed, &LAMMPS_NS::FixWallGran::vshear_>;
+template struct PrivateMember<WallKind, &LAMMPS_NS::PrimitiveWall::wType>;
+template struct PrivateMember<WallNumbers, &LAMMPS_NS::PrimitiveWall::param>;
+template struct PrivateMember<WallShears, &LAMMPS_NS::FixWallGran::shear_>;
+template struct PrivateMember<WallShearDirection, &LAMMPS_NS::FixWallGran::shearDim_>;
+template struct PrivateMember<WallShearAxis, &LAMMPS_NS::FixWallGran::shearAxis_>;
+template struct PrivateMember<WallShearSpeed, &LAMMPS_NS::FixWallGran::vshear_>;
 } // namespace eccentra::styles
 
 namespace eccentra::styles {
 namespace {
 
 template <class Tag, class Object> auto& member(Object& object) {
-  return object.*styles::Published<Tag>::pointer;
+  return object.*Published<Tag>::pointer;
 }
 
 link::Vector3 three(const Eigen::Vector3d& v) {
@@ -176,7 +176,7 @@ link::WallDescription walls_of_script(LAMMPS* lmp, bool running) {
   };
   for (int i = 0; i < lmp->modify->nfix; ++i) {
     Fix* const fix = lmp->modify->fix[i];
-    if (const auto* ours = dynamic_cast<styles::FixWallGranCluster*>(fix)) {
+    if (const auto* ours = dynamic_cast<FixWallGranCluster*>(fix)) {
       if (ours->arguments().surface)
         walls.primitives.push_back(of_ours(*ours->arguments().surface, fix->id));
       for (const std::string& id : ours->arguments().meshes)

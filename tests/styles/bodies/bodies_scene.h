@@ -5,6 +5,7 @@
 
 #include "shape/cluster_shape.h"
 #include "styles/bodies/fix_cluster_bodies.h"
+#include "support/granular_script.h"
 #include "support/liggghts_session.h"
 
 #include "atom_vec.h"
@@ -19,28 +20,13 @@
 
 namespace eccentra::test {
 
-/// What the materials of a scene are; poisson 0.3.
-struct Material {
-  double youngs = 5e6;
-  double restitution = 0.9;
-  double friction = 0.5;
-};
-
 /// A box of 0.2 m about the origin without gravity, no pair style yet.
 inline void open_box(LiggghtsSession& session, const Material& material, const std::string& boundary = "f f f") {
-  session.script(
-      "atom_style granular\natom_modify map array\nboundary " + boundary +
-      "\nnewton off\ncommunicate single vel yes\nunits si\n"
-      "region box block -0.1 0.1 -0.1 0.1 -0.1 0.1 units box\ncreate_box 1 box\n"
-      "neighbor 0.001 bin\nneigh_modify delay 0\nfix m1 all property/global youngsModulus peratomtype " +
-      std::to_string(material.youngs) + "\nfix m2 all property/global poissonsRatio peratomtype 0.3\n" +
-      "fix m3 all property/global coefficientRestitution peratomtypepair 1 " + std::to_string(material.restitution) +
-      "\nfix m4 all property/global coefficientFriction peratomtypepair 1 " + std::to_string(material.friction) + "\n");
+  session.script(granular_box("-0.1 0.1 -0.1 0.1 -0.1 0.1", boundary) + granular_material(material));
 }
 
 inline void use_clusters(LiggghtsSession& session, const std::string& arguments = "") {
-  session.script("pair_style gran/cluster model hertz tangential history rolling_friction off " + arguments +
-                 "\npair_coeff * *\nfix integrate all nve/cluster\n");
+  session.script(cluster_contacts("rolling_friction off " + arguments) + "fix integrate all nve/cluster\n");
 }
 
 inline shape::ClusterShape shape_of(const std::vector<std::string>& arguments, double diameter = 6.35e-3) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stock fix multisphere, fed by particletemplate/multisphere/shape, carries the exact mass and inertia of our shapes.
 #include "shape/cluster_shape.h"
+#include "support/granular_script.h"
 #include "support/liggghts_session.h"
 
 #include "fix_multisphere.h"
@@ -11,7 +12,7 @@
 
 #include <algorithm>
 
-using eccentra::test::LiggghtsSession;
+using namespace eccentra::test;
 
 namespace {
 
@@ -20,23 +21,7 @@ constexpr double kDiameter = 6.35e-3;
 
 void expect_exact(const std::string& family, const std::string& count) {
   LiggghtsSession session;
-  session.script(R"(
-    atom_style granular
-    atom_modify map array
-    boundary f f f
-    newton off
-    communicate single vel yes
-    units si
-    region box block -0.05 0.05 -0.05 0.05 -0.05 0.05 units box
-    create_box 1 box
-    neighbor 0.002 bin
-    neigh_modify delay 0
-    fix m1 all property/global youngsModulus peratomtype 5e6
-    fix m2 all property/global poissonsRatio peratomtype 0.3
-    fix m3 all property/global coefficientRestitution peratomtypepair 1 0.9
-    fix m4 all property/global coefficientFriction peratomtypepair 1 0.5
-    pair_style gran model hertz tangential history
-    pair_coeff * *
+  session.script(granular_box() + granular_material({}, "0.002") + sphere_contacts() + R"(
     timestep 1e-6
     fix pts all particletemplate/multisphere/shape 15485863 atom_type 1 density constant 2619 shape )" +
                  family + " " + count + R"( diameter 6.35e-3

@@ -3,7 +3,9 @@
 // Restart files of another version are refused in one sentence, wherever in the file the difference shows.
 #include "styles/bodies/restart_seal.h"
 #include "styles/bodies/restart_version.h"
-#include "support/run_program.h"
+#include "support/granular_script.h"
+#include "support/program_output.h"
+#include "support/read_file.h"
 
 #include <gtest/gtest.h>
 
@@ -18,16 +20,7 @@ namespace {
 
 constexpr const char* head = "atom_style granular\natom_modify map array\nnewton off\ncommunicate single vel yes\n"
                              "units si\n";
-constexpr const char* body = R"(
-neighbor 0.001 bin
-neigh_modify delay 0
-fix m1 all property/global youngsModulus peratomtype 5e6
-fix m2 all property/global poissonsRatio peratomtype 0.3
-fix m3 all property/global coefficientRestitution peratomtypepair 1 0.9
-fix m4 all property/global coefficientFriction peratomtypepair 1 0.5
-pair_style gran/cluster model hertz tangential history rolling_friction off
-pair_coeff * *
-timestep 1e-5
+const std::string body = granular_material() + cluster_contacts("rolling_friction off") + R"(timestep 1e-5
 fix floor all wall/gran/cluster model hertz tangential history primitive type 1 zplane 0
 fix move all nve/cluster
 )";
@@ -36,12 +29,7 @@ ProgramResult run_script(const std::filesystem::path& folder, const std::string&
   write_file(folder / name, text);
   ProgramOptions options;
   options.directory = folder;
-  return run_program({required_environment("ECCENTRA_BIN") + "/eccentra-dem", "-in", name, "-log", "none"}, options);
-}
-
-std::string read_all(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  return run_program({program("eccentra-dem"), "-in", name, "-log", "none"}, options);
 }
 
 } // namespace
@@ -63,7 +51,7 @@ TEST(RestartVersion, AnotherFormatIsRefused) {
   const ProgramResult same = run_script(folder, "go_on.in", go_on);
   ASSERT_EQ(same.status, 0) << same.output;
 
-  const std::string file = read_all(folder / "now.restart");
+  const std::string file = contents(folder / "now.restart");
   char mark[sizeof(int)];
   std::memcpy(mark, &styles::restart_mark, sizeof mark);
   int places = 0;

@@ -3,6 +3,7 @@
 // Clusters come into a scene through stock insertion: exact counts, mass of the union, uniform orientations; free
 // flight keeps momentum and energy on any number of ranks.
 #include "styles/bodies/fix_cluster_bodies.h"
+#include "support/granular_script.h"
 #include "support/liggghts_session.h"
 
 #include "modify.h"
@@ -14,30 +15,15 @@
 #include <cmath>
 
 using eccentra::styles::FixClusterBodies;
-using eccentra::test::LiggghtsSession;
+using namespace eccentra::test;
 
 namespace {
 
 constexpr int count = 800;
 
 void fill(LiggghtsSession& session) {
-  session.script(R"(
-    atom_style granular
-    atom_modify map array
-    boundary p p p
-    newton off
-    communicate single vel yes
-    units si
-    region box block 0 0.2 0 0.2 0 0.2 units box
-    create_box 1 box
-    neighbor 0.002 bin
-    neigh_modify delay 0
-    fix m1 all property/global youngsModulus peratomtype 5e6
-    fix m2 all property/global poissonsRatio peratomtype 0.3
-    fix m3 all property/global coefficientRestitution peratomtypepair 1 0.9
-    fix m4 all property/global coefficientFriction peratomtypepair 1 0.5
-    pair_style gran/cluster model hertz tangential history rolling_friction off
-    pair_coeff * *
+  session.script(granular_box("0 0.2 0 0.2 0 0.2", "p p p") + granular_material({}, "0.002") +
+                 cluster_contacts("rolling_friction off") + R"(
     timestep 1e-5
     fix cubes all particletemplate/cluster 15485863 atom_type 1 density constant 2619 shape cube 8 diameter 6.35e-3
     fix disks all particletemplate/cluster 15485867 atom_type 1 shape disk 7 diameter 6.35e-3 density constant 1000

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // LIGGGHTS runs in a test process with our styles: a sphere falls freely by the closed form.
 #include "styles/entry/host_symbols.h"
+#include "support/granular_script.h"
 #include "support/liggghts_session.h"
 
 #include <gtest/gtest.h>
@@ -10,25 +11,11 @@
 
 #include <string>
 
-using eccentra::test::LiggghtsSession;
+using namespace eccentra::test;
 
 TEST(Session, SphereFallsFreely) {
   LiggghtsSession session;
-  session.script(R"(
-    atom_style granular
-    boundary p p p
-    newton off
-    communicate single vel yes
-    units si
-    region box block 0 1 0 1 0 1 units box
-    create_box 1 box
-    neighbor 0.01 bin
-    fix m1 all property/global youngsModulus peratomtype 5e6
-    fix m2 all property/global poissonsRatio peratomtype 0.3
-    fix m3 all property/global coefficientRestitution peratomtypepair 1 0.9
-    fix m4 all property/global coefficientFriction peratomtypepair 1 0.5
-    pair_style gran model hertz tangential history
-    pair_coeff * *
+  session.script(granular_box("0 1 0 1 0 1", "p p p") + granular_material({}, "0.01") + sphere_contacts() + R"(
     timestep 1e-5
     fix gravity all gravity 9.81 vector 0 0 -1
     create_atoms 1 single 0.5 0.5 0.9 units box

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "styles/fluid/fix_fluid_force.h"
+#include "support/granular_script.h"
 #include "support/liggghts_session.h"
 
 #include <string>
@@ -17,21 +18,7 @@ constexpr double kFluidDensity = 1000.0;
 
 /// Box, materials, contacts; no atoms yet.
 inline std::string scene_head(const std::string& boundary = "p p p") {
-  return "atom_style granular\nboundary " + boundary + R"(
-    newton off
-    communicate single vel yes
-    units si
-    region box block 0 0.1 0 0.1 0 0.4 units box
-    create_box 1 box
-    neighbor 0.002 bin
-    neigh_modify delay 0
-    fix m1 all property/global youngsModulus peratomtype 5e6
-    fix m2 all property/global poissonsRatio peratomtype 0.3
-    fix m3 all property/global coefficientRestitution peratomtypepair 1 0.9
-    fix m4 all property/global coefficientFriction peratomtypepair 1 0.5
-    pair_style gran model hertz tangential history
-    pair_coeff * *
-  )";
+  return granular_box("0 0.1 0 0.1 0 0.4", boundary) + granular_material({}, "0.002") + sphere_contacts();
 }
 
 /// One sphere in the middle.

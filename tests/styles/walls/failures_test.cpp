@@ -47,7 +47,7 @@ TEST(WallArguments, BadLinesAreNamed) {
   expect_names("model hookes tangential history primitive type 1 xplane 0", "'hookes'");
   expect_names(kModel, "no wall is given");
   expect_names(kModel + "primitive type 1 zcylinder 0.02 0", "the line ends");
-  expect_names(kModel + "primitive type 1 zcylinder -0.02 0 0", "radius must be > 0");
+  expect_names(kModel + "primitive type 1 zcylinder -0.02 0 0", "greater than 0 for the radius");
   expect_names(kModel + "primitive type 1 zcylinder 0.02m 0 0", "'0.02m'");
   expect_names(kModel + "primitive type 1 zcylinder nan 0 0", "'nan'");
   expect_names(kModel + "primitive type 0 xplane 0", "at least 1");
