@@ -46,7 +46,7 @@ def main(words):
         sys.exit(0 if words else 2)
     name, rest = words[0], words[1:]
     if name == "--version":
-        sys.stdout.write(programs.version() + "\n")
+        sys.stdout.write(programs.version().replace("eccentra-dem", "eccentra") + "\n")
         sys.exit(0)
     if name in PROGRAMS:
         program = programs.BUILD / "bin" / PROGRAMS[name]

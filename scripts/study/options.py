@@ -9,7 +9,7 @@ import re
 import sys
 
 from . import runs
-from .programs import BUILD, RESULTS, Failure, need
+from .programs import BUILD, RESULTS, Failure, need, version
 
 KEPT = "Finished runs are kept: the same command goes on where it stopped."
 # Options that choose what is run and shown, or how: a run's result does not depend on them.
@@ -83,6 +83,9 @@ class Parser(argparse.ArgumentParser):
 def start(script):
     """Runs the module of study.commands that a script is named as; whatever goes wrong is said in one sentence."""
     try:
+        if sys.argv[1:2] == ["--version"]:
+            print(script, re.search(r"\d[\d.]*", version()).group())
+            sys.exit(0)
         status = importlib.import_module(f"study.commands.{script.replace('-', '_')}").main()
         sys.stdout.flush()
     except Failure as failure:
