@@ -6,6 +6,8 @@
 #include "base/standard_output.h"
 #include "closures/drag_table.h"
 
+#include "eccentra/version.h"
+
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -93,6 +95,10 @@ std::vector<const DragLaw*> laws_of(std::string names) {
 }
 
 int run(const std::vector<std::string>& arguments) {
+  if (!arguments.empty() && arguments[0] == "--version") {
+    std::puts("dragLaw " ECCENTRA_VERSION);
+    return 0;
+  }
   if (arguments.empty() || arguments[0] == "--help" || arguments[0] == "-h") {
     std::fputs(kHelp, arguments.empty() ? stderr : stdout);
     return arguments.empty() ? 1 : 0;
