@@ -5,6 +5,5 @@
 set -euo pipefail
 rm -rf "$2"
 mkdir -p "$(dirname "$2")"
-# Not by the case's run: a shell would mend PWD, which programs in Python leave as it was.
-env PWD=/ "$ECCENTRA_BIN/eccentra-run" "$1" --output "$2" --seconds 0.8 > "$2.log" 2>&1 || { tail -5 "$2.log"; exit 1; }
+"$1/run" --output "$2" --seconds 0.8 > "$2.log" 2>&1 || { tail -5 "$2.log"; exit 1; }
 "$1/onset" "$2" --within 10
