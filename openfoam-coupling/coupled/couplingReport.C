@@ -43,6 +43,13 @@ double relative(double error, double scale) {
   return scale > 0 ? error / scale : 0.0;
 }
 
+std::string millimetres(double metres) {
+  std::ostringstream text;
+  text.precision(3);
+  text << 1e3 * metres << " mm";
+  return text.str();
+}
+
 vector vectorOf(const double* v) {
   return vector(v[0], v[1], v[2]);
 }
@@ -272,12 +279,16 @@ void couplingReport::write(averagedFlow& flow, const exchange::particleExchange&
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   const double done =
       couplingStep.steps_total > 0 ? double(couplingStep.steps_done) / double(couplingStep.steps_total) : 0.0;
-  std::printf("t %.4g s  %3.0f %%  left %.0f s | %lld particles, U %.4g m/s, dp/dz %.4g Pa/m, flux %.3g m3/s, fastest "
-              "%.3g m/s, alpha >= %.3f | %s  particles' Re %.3g, at most %.3g | errors: volume %.1e impulse %.1e "
-              "pressure %.1e continuity %.1e\n",
+  // Across a vertical hole there is no low side on which a bed could lie.
+  const std::string height =
+      down_ != vector(Zero) ? "bed " + millimetres(bed.height) : "solid's centre at " + millimetres(centre & axis_);
+  std::printf("t %.4g s  %3.0f %%  left %.0f s | %lld particles, concentration %.3g %%, %s, U %.4g m/s, dp/dz %.4g "
+              "Pa/m, flux %.3g m3/s, fastest %.3g m/s, alpha >= %.3f | %s  particles' Re %.3g, at most %.3g | errors: "
+              "volume %.1e impulse %.1e pressure %.1e continuity %.1e\n",
               mesh_.time().value(), 100 * done, done > 0 ? elapsed * (1 - done) / done : 0.0,
-              static_cast<long long>(totals.particles), meanVelocity, gradient, flux, totals.fastest, bed.minFraction,
-              measures.text().c_str(), slip.mean, slip.largest, volumeError, impulseError, pressureError, continuity);
+              static_cast<long long>(totals.particles), 100 * concentration, height.c_str(), meanVelocity, gradient,
+              flux, totals.fastest, bed.minFraction, measures.text().c_str(), slip.mean, slip.largest, volumeError,
+              impulseError, pressureError, continuity);
   std::fflush(stdout);
 }
 

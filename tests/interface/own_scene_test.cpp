@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A scene of one's own: eccentra new writes a case that runs, resumes, changes by one number, and is reported.
-#include "support/program_output.h"
 #include "support/read_file.h"
+#include "support/run_program.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ class OwnScene : public testing::Test {
     return run_program(command, {folder, {}, 240});
   }
   ProgramResult eccentra(std::vector<std::string> words) const {
-    words.insert(words.begin(), program("eccentra"));
+    words.insert(words.begin(), required_environment("ECCENTRA_BIN") + "/eccentra");
     return in_folder(words);
   }
 
@@ -66,6 +66,14 @@ TEST_F(OwnScene, SectionOfClustersRunsAndTakesEachNumberFromOnePlace) {
   EXPECT_NE(contents(folder / "mine/scene").find("rpm               120;"), std::string::npos)
       << "the case itself stays";
   EXPECT_EQ(run.output.find("warning"), std::string::npos) << run.output;
+  // The layout and the run have one definition of the Reynolds numbers.
+  EXPECT_NEAR(printed(made.output, "Reynolds number"), printed(run.output, R"(Reynolds number .* m/s:)"),
+              0.01 * printed(made.output, "Reynolds number"));
+  EXPECT_NEAR(printed(made.output, R"(Reynolds number .* mean,)"), printed(run.output, R"(in the mean,)"),
+              0.01 * printed(run.output, R"(in the mean,)"));
+  // What the terminal says is what the table says: 1 % was asked for, and the grains lie on the low side.
+  EXPECT_NEAR(printed(run.output, "particles, concentration"), 1, 0.02) << run.output;
+  EXPECT_NE(run.output.find("bed "), std::string::npos) << run.output;
 
   const ProgramResult report = eccentra({"report", "fast", "-o", "report"});
   EXPECT_EQ(report.status, 0) << report.output;
@@ -189,7 +197,8 @@ TEST_F(OwnScene, EachWrongWordIsOneSentence) {
 TEST_F(OwnScene, TheDoctorFindsWhatIsMissing) {
   const ProgramResult whole = eccentra({"doctor"});
   EXPECT_EQ(whole.status, 0) << whole.output;
-  const ProgramResult broken = run_program({program("eccentra"), "doctor"}, {folder, {"WM_PROJECT_DIR=/nowhere"}, 240});
+  const ProgramResult broken = run_program({required_environment("ECCENTRA_BIN") + "/eccentra", "doctor"},
+                                           {folder, {"WM_PROJECT_DIR=/nowhere"}, 240});
   EXPECT_EQ(broken.status, 1) << broken.output;
   EXPECT_NE(broken.output.find("OpenFOAM   FAILED  WM_PROJECT_DIR '/nowhere'"), std::string::npos) << broken.output;
 }
