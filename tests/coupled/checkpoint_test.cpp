@@ -100,6 +100,27 @@ TEST(Checkpoint, SpheresOnTwoRanksGoOnWithTheSameDigits) {
   expect_same_digits(stirred_box(kWords, kSteps, false), "spheres_ranks", 2);
 }
 
+/// LIGGGHTS's own turn to sort, each 620 steps, comes shortly before the step of the checkpoint, 640: the order of the
+/// particles, and with it that of all sums, must be the same after it.
+TEST(Checkpoint, SpheresThatWereSortedJustBeforeKeepTheirOrder) {
+  BoxCase box = stirred_box(kWords, kMiddle + kStepsPerCouplingStep, false);
+  box.script.insert(box.script.find("fix floor"), "atom_modify sort 620 0.0002\nneigh_modify every 1 check no\n"
+                                                  "dump order all custom 20 order.txt id\n");
+  const Outcome outcome = run(box, "sorted_spheres", 1);
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  const auto order = [&] { // between two exchanges
+    const std::string text = contents(fs::path(outcome.folder) / "order.txt");
+    const std::size_t begin = text.find("ITEM: TIMESTEP\n660\n");
+    return begin == std::string::npos ? "" : text.substr(begin, text.find("ITEM: TIMESTEP", begin + 1) - begin);
+  };
+  const std::string straight = order();
+  ASSERT_FALSE(straight.empty());
+  fs::remove_all(fs::path(outcome.folder) / "checkpoints" / std::to_string(kMiddle + kStepsPerCouplingStep));
+  const ProgramResult second = again(outcome.folder);
+  ASSERT_EQ(second.status, 0) << second.output;
+  EXPECT_EQ(order(), straight);
+}
+
 TEST(Checkpoint, ClustersAndTheVerdictOfTheScreenGoOnWithTheSameDigits) {
   expect_same_digits(stirred_box(kWords, kSteps, true, true), "clusters", 1);
 }

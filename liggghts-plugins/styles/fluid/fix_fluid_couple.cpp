@@ -285,8 +285,10 @@ void FixFluidCouple::pre_initial_integrate() {
   }
   if (overlap_ && !ahead_)
     begin_interval();
-  if (countdown_ == 1)
+  if (countdown_ == 1) {
     look_for_signals();
+    sort_with_neighbours();
+  }
 }
 
 void FixFluidCouple::begin_interval() {

@@ -77,6 +77,7 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   /// Sees to it that the atoms are sorted and listed anew in the step of the next exchange, if a checkpoint may be
   /// written there: the run that reads it begins with just that.
   void plan_checkpoint();
+  void sort_with_neighbours();
   /// Before the two sides agree.
   void begin_checkpoints();
   void write_checkpoint();

@@ -37,7 +37,11 @@ constexpr const char* kParticlesAlone = "checkpoints/particles-alone.restart";
 // a run that goes on from there does: whether a checkpoint is then written changes no digit.
 void FixFluidCouple::plan_checkpoint() {
   next_reneighbor = checkpoints_ != Checkpoints::off || stop_ ? update->ntimestep + countdown_ : -1;
-  if (next_reneighbor >= 0 && atom->sortfreq > 0)
+}
+
+// Only now: a sort of LIGGGHTS's own since the last exchange would have set the next one after this step.
+void FixFluidCouple::sort_with_neighbours() {
+  if (next_reneighbor == update->ntimestep && atom->sortfreq > 0)
     atom->nextsort = std::min(atom->nextsort, next_reneighbor);
 }
 
@@ -49,11 +53,8 @@ void FixFluidCouple::look_for_signals() {
   if (stop_ == 0)
     stop_ = state[0];
   due_ = state[1] != 0 || (checkpoints_ == Checkpoints::counted && (coupling_steps_ + 1) % checkpoint_every_ == 0);
-  if (stop_ == 0)
-    return;
-  next_reneighbor = update->ntimestep;
-  if (atom->sortfreq > 0)
-    atom->nextsort = std::min(atom->nextsort, next_reneighbor);
+  if (stop_ != 0)
+    next_reneighbor = update->ntimestep;
 }
 
 void FixFluidCouple::write_checkpoint() {
