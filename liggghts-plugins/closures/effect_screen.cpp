@@ -4,6 +4,7 @@
 #include "closures/effect_screen.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <numeric>
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double kQuantile = 0.95;
 constexpr int kSamples = 64;       ///< of one measurement
+constexpr double kFormat = 1000;   ///< of the state: with classes of size
 constexpr double kEndless = 1e100; ///< more than the histograms tell apart
 
 bool is_drag(const Effect& effect) {
@@ -55,17 +57,47 @@ EffectScreen::EffectScreen(const ScreenOptions& options, const EffectList& effec
 }
 
 void EffectScreen::clear() {
-  for (LogHistogram* histogram : histograms())
+  for (LogHistogram* histogram : histograms(~0U))
     *histogram = LogHistogram();
 }
 
-std::vector<LogHistogram*> EffectScreen::histograms() {
+int EffectScreen::class_of(double radius) {
+  constexpr double smallest = 1e-6; // [m]
+  return std::clamp(static_cast<int>(std::floor(std::log2(std::max(radius, smallest) / smallest))), 0, kClasses - 1);
+}
+
+unsigned EffectScreen::classes() const {
+  unsigned present = 0;
+  for (int k = 0; k < kClasses && !measures_.empty(); ++k)
+    present |= measures_.front().to_reference[static_cast<std::size_t>(k)].count() > 0 ? 1U << unsigned(k) : 0U;
+  return present;
+}
+
+double EffectScreen::deciding(std::size_t effect) const {
+  double largest = 0;
+  for (const LogHistogram& of_class : measures_[effect].to_reference)
+    largest = std::max(largest, of_class.quantile(kQuantile));
+  return largest;
+}
+
+std::vector<LogHistogram*> EffectScreen::histograms(unsigned classes) {
   std::vector<LogHistogram*> all;
-  for (Measure& m : measures_)
-    all.insert(all.end(), {&m.to_weight, &m.to_drag, &m.to_reference});
+  for (Measure& m : measures_) {
+    all.insert(all.end(), {&m.to_weight, &m.to_drag});
+    for (int k = 0; k < kClasses; ++k)
+      if ((classes >> unsigned(k)) & 1U)
+        all.push_back(&m.to_reference[static_cast<std::size_t>(k)]);
+  }
   for (LogHistogram& number : numbers_)
     all.push_back(&number);
   return all;
+}
+
+void EffectScreen::merge(MPI_Comm ranks) {
+  unsigned present = classes();
+  MPI_Allreduce(MPI_IN_PLACE, &present, 1, MPI_UNSIGNED, MPI_BOR, ranks);
+  for (LogHistogram* histogram : histograms(present))
+    histogram->merge(ranks);
 }
 
 void EffectScreen::apply(const HalfStep& half_step, const EffectList& effects, const Rheology& fluid) {
@@ -90,17 +122,19 @@ void EffectScreen::apply(const HalfStep& half_step, const EffectList& effects, c
       continue;
     const double weight = std::abs(half_step.mass[i] - fluid.density * sphere_volume(half_step.radius[i])) * g;
     const double resisted = drag == effects.end() ? 0.0 : magnitude_[(drag - effects.begin()) * count + i];
+    const auto size_class = static_cast<std::size_t>(class_of(half_step.radius[i]));
     for (std::size_t e = 0; e < effects.size(); ++e) {
       const double size = magnitude_[e * count + i];
       Measure& m = measures_[e];
+      LogHistogram& to_reference = m.to_reference[size_class];
       if (effects[e]->is_torque()) {
         m.to_weight.add(ratio(size, weight * half_step.radius[i]));
         m.to_drag.add(ratio(size, resisted * half_step.radius[i]));
-        m.to_reference.add(ratio(size, torque_peers_[i]));
+        to_reference.add(ratio(size, torque_peers_[i]));
       } else {
         m.to_weight.add(ratio(size, weight));
         m.to_drag.add(ratio(size, resisted));
-        m.to_reference.add(ratio(size, std::max(weight, resisted)));
+        to_reference.add(ratio(size, std::max(weight, resisted)));
       }
     }
     const auto numbers = particle_numbers(half_step, static_cast<int>(i), fluid);
@@ -123,18 +157,17 @@ void EffectScreen::start() {
 }
 
 std::vector<bool> EffectScreen::decide(MPI_Comm ranks, const EffectList& effects) {
-  for (LogHistogram* histogram : histograms())
-    histogram->merge(ranks);
+  merge(ranks);
   std::vector<std::size_t> order(measures_.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto size = [this](std::size_t e) { return measures_[e].to_reference.quantile(kQuantile); };
+  const auto size = [this](std::size_t e) { return deciding(e); };
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return size(a) < size(b); });
   std::vector<bool> keep(measures_.size(), true);
   double dropped = 0.0;
   for (const std::size_t e : order) {
     dropped += size(e);
     // No particle was there to judge by: keep.
-    if (dropped > options_.tolerance || measures_[e].to_reference.count() == 0)
+    if (dropped > options_.tolerance || measures_[e].to_weight.count() == 0)
       break;
     keep[e] = false;
   }
@@ -158,8 +191,23 @@ std::string EffectScreen::table(const EffectList& effects, const std::vector<boo
     const Measure& m = measures_[e];
     append(text, "  %-18s  %-8.2e %-8.2e %-8.2e  %-8.2e %-8.2e %-8.2e  %-8.2e    %-8.1f  %s\n", effects[e]->name(),
            m.to_weight.mean(), m.to_weight.quantile(kQuantile), m.to_weight.largest(), m.to_drag.mean(),
-           m.to_drag.quantile(kQuantile), m.to_drag.largest(), m.to_reference.quantile(kQuantile), nanoseconds[e],
+           m.to_drag.quantile(kQuantile), m.to_drag.largest(), deciding(e), nanoseconds[e],
            keep[e] ? "stays on" : "switched off");
+  }
+  const unsigned present = classes();
+  if ((present & (present - 1)) != 0) { // more than one
+    text += "  what decides, by classes of size: diameter from [mm]";
+    for (int k = 0; k < kClasses; ++k)
+      if ((present >> unsigned(k)) & 1U)
+        append(text, "  %-8.3g", 2e-3 * std::pow(2.0, k));
+    text += "\n";
+    for (std::size_t e = 0; e < effects.size(); ++e) {
+      append(text, "    %-49s", effects[e]->name());
+      for (int k = 0; k < kClasses; ++k)
+        if ((present >> unsigned(k)) & 1U)
+          append(text, "  %-8.2e", measures_[e].to_reference[static_cast<std::size_t>(k)].quantile(kQuantile));
+      text += "\n";
+    }
   }
   double all = 0.0, kept = 0.0;
   for (std::size_t e = 0; e < effects.size(); ++e) {
@@ -185,10 +233,11 @@ std::string EffectScreen::table(const EffectList& effects, const std::vector<boo
 }
 
 std::vector<double> EffectScreen::save(MPI_Comm ranks) const {
-  std::vector<double> state = {double(measuring_), double(done_), double(measures_.size())};
   EffectScreen merged = *this;
-  for (LogHistogram* histogram : merged.histograms()) {
-    histogram->merge(ranks);
+  merged.merge(ranks);
+  const unsigned present = merged.classes();
+  std::vector<double> state = {double(measuring_), double(done_), kFormat + double(measures_.size()), double(present)};
+  for (LogHistogram* histogram : merged.histograms(present)) {
     state.resize(state.size() + LogHistogram::state_size());
     histogram->save(&state[state.size() - LogHistogram::state_size()]);
   }
@@ -198,10 +247,10 @@ std::vector<double> EffectScreen::save(MPI_Comm ranks) const {
 std::size_t EffectScreen::load(const double* state, bool with_sums) {
   measuring_ = state[0] != 0.0;
   done_ = static_cast<long>(state[1]);
-  std::size_t read = 3;
-  if (static_cast<std::size_t>(state[2]) != measures_.size())
+  if (state[2] != kFormat + double(measures_.size()))
     return 0;
-  for (LogHistogram* histogram : histograms()) {
+  std::size_t read = 4;
+  for (LogHistogram* histogram : histograms(static_cast<unsigned>(state[3]))) {
     if (with_sums)
       histogram->load(state + read);
     read += LogHistogram::state_size();

@@ -16,9 +16,10 @@
 namespace eccentra::closures {
 
 /// During a measurement every effect is on. Forces are compared with the larger of submerged weight and drag of the
-/// same particle; the rotational drag with the sum of all other torques on it. The effects with the smallest 95 %
-/// values are dropped as long as the sum of the dropped values stays below the tolerance. An effect that another one
-/// needs stays with it.
+/// same particle; the rotational drag with the sum of all other torques on it. Particles are judged by classes of size,
+/// each of a factor of two: of an effect the largest of the 95 % values of all classes counts, so that many large
+/// bodies do not decide for a few small ones. The effects with the smallest values are dropped as long as the sum of
+/// the dropped values stays below the tolerance. An effect that another one needs stays with it.
 class EffectScreen {
  public:
   EffectScreen(const ScreenOptions& options, const EffectList& effects);
@@ -45,11 +46,19 @@ class EffectScreen {
   std::size_t load(const double* state, bool with_sums);
 
  private:
+  static constexpr int kClasses = 17; ///< of size; the first one begins at a radius of 1 um
   /// Record of one effect.
   struct Measure {
-    LogHistogram to_weight, to_drag, to_reference;
+    LogHistogram to_weight, to_drag;
+    std::vector<LogHistogram> to_reference = std::vector<LogHistogram>(kClasses);
   };
-  std::vector<LogHistogram*> histograms();
+  static int class_of(double radius);
+  double deciding(std::size_t effect) const;
+  /// One bit for each class that has particles.
+  unsigned classes() const;
+  /// The histograms of what these classes have.
+  std::vector<LogHistogram*> histograms(unsigned classes);
+  void merge(MPI_Comm ranks);
   void clear();
 
   ScreenOptions options_;

@@ -122,6 +122,16 @@ INSTANTIATE_TEST_SUITE_P(
         Scene{"buoyancy_in_thin_gas", "buoyancy", false, kGas, "", ""}),
     [](const auto& info) { return std::string(info.param.name); });
 
+// Gas does not hold up spheres of 6 mm, but it does a sphere of 0.1 mm, which is one of 32.
+TEST(ScreenClasses, AFewSmallBodiesAreNotOutvoted) {
+  for (const bool small : {false, true}) {
+    LiggghtsSession session;
+    session.script(scene("", "screen 0.01 screen_steps 2000 screen_recheck 0", kGas) +
+                   (small ? "set atom 1 diameter 1e-4 density 2619\n" : "") + "run 2001\n");
+    EXPECT_EQ(acts(session, "drag"), small);
+  }
+}
+
 /// A sphere slides on a floor and friction makes it roll: is the fluid's torque worth its price beside that of
 /// friction?
 bool torque_stays(const std::string& fluid, double speed) {
