@@ -87,6 +87,15 @@ TEST(Reported, resume_over_the_socket_on_two_ranks) {
   EXPECT_FALSE(contents(parts / "0.2/alpha").empty());
 }
 
+TEST(Reported, refused_run_has_nothing_to_go_on_with) {
+  const fs::path here = fresh_folder("refused");
+  const ProgramResult run = start(here, case_run("tomren-section", short_section("run", {"--effects", "drag nobody"})));
+  EXPECT_EQ(run.status, 1) << run.output;
+  EXPECT_TRUE(holds(run.output, "'nobody'")) << run.output;
+  EXPECT_TRUE(holds(run.output, "wrote no checkpoint to go on from: begin it anew")) << run.output;
+  EXPECT_FALSE(holds(run.output, "--resume")) << run.output;
+}
+
 TEST(Reported, readme_cp_r_tomren_section_run) {
   const fs::path here = fresh_folder("copied");
   const fs::path cases = required_environment("ECCENTRA_CASES");
