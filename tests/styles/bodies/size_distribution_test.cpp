@@ -3,6 +3,7 @@
 // One template with a distribution of sizes: numbers, masses and settling velocities of its classes, beside spheres.
 #include "shape/size_classes.h"
 #include "styles/bodies/fix_cluster_bodies.h"
+#include "support/granular_script.h"
 #include "support/liggghts_session.h"
 
 #include "modify.h"
@@ -30,25 +31,9 @@ const std::string kCubes =
 
 /// Half of the bodies are clusters of these diameters, the others spheres; no two bodies touch each other.
 void fill(LiggghtsSession& session, const std::string& diameter) {
-  session.script(R"(
-    atom_style granular
-    atom_modify map array
-    boundary p p p
-    newton off
-    communicate single vel yes
-    units si
-    region box block 0 0.2 0 0.2 0 0.2 units box
-    create_box 1 box
-    neighbor 0.002 bin
-    neigh_modify delay 0
-    fix m1 all property/global youngsModulus peratomtype 5e6
-    fix m2 all property/global poissonsRatio peratomtype 0.3
-    fix m3 all property/global coefficientRestitution peratomtypepair 1 0.9
-    fix m4 all property/global coefficientFriction peratomtypepair 1 0.5
-    pair_style gran/cluster model hertz tangential history rolling_friction off
-    pair_coeff * *
-    timestep 1e-5
-)" + kCubes + diameter +
+  session.script(eccentra::test::granular_box("0 0.2 0 0.2 0 0.2", "p p p") +
+                 eccentra::test::granular_material({}, "0.002") +
+                 eccentra::test::cluster_contacts("rolling_friction off") + "timestep 1e-5\n" + kCubes + diameter +
                  R"(
     fix s all particletemplate/sphere 15485867 atom_type 1 density constant 2619 radius constant 3e-3
     fix both all particledistribution/discrete/numberbased 32452843 2 t 0.5 s 0.5
