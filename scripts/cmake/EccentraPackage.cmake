@@ -23,9 +23,16 @@ set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${PROJECT_SOURCE
 set(ECCENTRA_SCRIPTS "${PROJECT_SOURCE_DIR}/scripts")
 configure_file("${PROJECT_SOURCE_DIR}/scripts/study/eccentra.in" "${PROJECT_BINARY_DIR}/bin/eccentra" @ONLY
   FILE_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+if(ECCENTRA_LIGGGHTS)
+  configure_file("${PROJECT_SOURCE_DIR}/cases/run-coupled" "${PROJECT_BINARY_DIR}/bin/eccentra-run" @ONLY)
+endif()
 set(ECCENTRA_SCRIPTS "../share/eccentra/scripts")
 configure_file("${PROJECT_SOURCE_DIR}/scripts/study/eccentra.in" "${PROJECT_BINARY_DIR}/generated/eccentra-installed" @ONLY)
 install(PROGRAMS "${PROJECT_BINARY_DIR}/generated/eccentra-installed" DESTINATION "${CMAKE_INSTALL_BINDIR}" RENAME eccentra)
+if(ECCENTRA_LIGGGHTS)
+  configure_file("${PROJECT_SOURCE_DIR}/cases/run-coupled" "${PROJECT_BINARY_DIR}/generated/eccentra-run-installed" @ONLY)
+  install(PROGRAMS "${PROJECT_BINARY_DIR}/generated/eccentra-run-installed" DESTINATION "${CMAKE_INSTALL_BINDIR}" RENAME eccentra-run)
+endif()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/scripts/study" DESTINATION "${CMAKE_INSTALL_DATADIR}/eccentra/scripts"
   PATTERN "__pycache__" EXCLUDE PATTERN "launch" EXCLUDE PATTERN "*.in.in" EXCLUDE PATTERN "eccentra.in" EXCLUDE)
 

@@ -39,14 +39,15 @@ def usage():
     return "\n".join(lines) + "\n"
 
 
-def main(words):
+def main(words, version):
     """Runs the command that the first word names, and ends the program."""
+    programs.said_version = version
     if not words or words[0] in ("-h", "--help", "help"):
         sys.stdout.write(usage())
         sys.exit(0 if words else 2)
     name, rest = words[0], words[1:]
     if name == "--version":
-        sys.stdout.write(programs.version().replace("eccentra-dem", "eccentra") + "\n")
+        sys.stdout.write(f"eccentra {version}\n")
         sys.exit(0)
     if name in PROGRAMS:
         program = programs.BUILD / "bin" / PROGRAMS[name]

@@ -84,7 +84,7 @@ def start(script):
     """Runs the module of study.commands that a script is named as; whatever goes wrong is said in one sentence."""
     try:
         if sys.argv[1:2] == ["--version"]:
-            print(script, re.search(r"\d[\d.]*", version()).group())
+            print(script, version())
             sys.exit(0)
         status = importlib.import_module(f"study.commands.{script.replace('-', '_')}").main()
         sys.stdout.flush()

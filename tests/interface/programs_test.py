@@ -5,6 +5,7 @@
 and one sentence where such a folder cannot be used. programs_test.py SOURCE BUILD"""
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -50,6 +51,16 @@ class Programs(unittest.TestCase):
                 code, text = said(path, "--version", folder=self.folder)
                 self.assertEqual(code, 0, text)
                 self.assertRegex(text, r"\d+\.\d+\.\d+")
+
+    def test_a_script_says_help_and_version_with_no_other_program_about(self):
+        for path in PROGRAMS:
+            if path.read_bytes()[:2] != b"#!":
+                continue
+            alone = pathlib.Path(shutil.copy(path, self.folder))
+            for word in ("--help", "--version"):
+                with self.subTest(program=path.name, word=word):
+                    code, text = said(alone, word, folder=self.folder)
+                    self.assertEqual(code, 0, text)
 
     def test_each_program_has_a_page_a_manual_and_completion(self):
         manual = re.search(r"ECCENTRA_PROGRAMS ([^)]*)\)", (SOURCE / "scripts/cmake/EccentraManual.cmake").read_text()).group(1).split()

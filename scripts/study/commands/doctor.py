@@ -56,7 +56,7 @@ def our_programs(folder):
     """Our programs are there and start."""
     for name in OURS:
         said([programs.BUILD / "bin" / name, "--help"], folder)
-    return f"{programs.version()} in {programs.BUILD}"
+    return f"{said([programs.BUILD / 'bin' / 'eccentra-dem', '--version'], folder).splitlines()[0]} in {programs.BUILD}"
 
 
 def openfoam(_folder):
