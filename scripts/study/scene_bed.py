@@ -75,7 +75,8 @@ def bed(wish, grain):
     onset = packed.onset(grain.solid_density)
     last = velocity_of("velocity", wish.velocity, onset)
     first = last if wish.first is None else velocity_of("first-velocity", wish.first, onset)
-    terminal = scene_grains.settling_speed(grain, form.sphericity, Mud(0.0, wish.viscosity, 1.0, wish.density), "haider_levenspiel")
+    fluid = Mud(0.0, wish.viscosity, 1.0, wish.density)
+    terminal = scene_grains.settling_speed(grain, form.sphericity, fluid, "haider_levenspiel")
     count = max(round(wish.filling * wish.width**2 * PACKING / grain.volume), 1)
     excess = count * grain.volume * (grain.solid_density - wish.density) * GRAVITY / wish.width**2
     across, along, size = cells_of(wish, grain.diameter)
@@ -100,7 +101,7 @@ def bed(wish, grain):
                ("snapshots", 0.05, "time between two pictures [s]"), ("safety", 0.9, "part of the critical DEM step beyond which a run stops"),
                ("cellsAcross", across, ""), ("cellsAlong", along, "")]
     rows = [*grain_rows(grain, form),
-            ("settling velocity", f"{terminal:.4g} m/s", "of one grain (Haider and Levenspiel 1989); faster fluid carries the bed away"),
+            ("settling velocity", *scene_grains.said_settling(grain, form.sphericity, fluid, "haider_levenspiel", "Haider and Levenspiel 1989")),
             ("onset of fluidisation", f"{onset:.4g} m/s", f"superficial, Ergun 1952 at a fluid fraction of {packed.fraction:.2f}"),
             ("velocity", f"{first:.4g} to {last:.4g} m/s" if first != last else f"{last:.4g} m/s", f"{last / onset:.3g} of the onset"),
             ("grains", f"{count}", f"{1e3 * wish.filling:.4g} mm deep, {100 * PACKING:.0f} % solid"),

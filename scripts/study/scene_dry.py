@@ -8,6 +8,8 @@ from . import scene_grains
 from .programs import Failure
 from .scene_grains import GRAVITY
 from .scene_layout import SAFETY, critical_step
+from .spread import CLASSES
+from .units import INCH, both
 
 PACKING = 0.55  # of a heap or a filling at rest
 HEAP_ANGLE = 25.0  # degrees; what cubes and disks of friction 0.5 come to within some degrees
@@ -25,9 +27,13 @@ class Plan(typing.NamedTuple):
 
 
 def grain_rows(grain, form):
-    """What is said of the grains of any dry scene."""
-    return [("grain", f"{1e3 * grain.diameter:.4g} mm, {1e3 * grain.mass():.3g} g", f"sphericity {form.sphericity:.3f}, "
-             f"{2e3 * form.bounding_radius:.3g} mm over all")]
+    """What is said of the grains of any scene."""
+    rows = [("grain", f"{1e3 * grain.diameter:.4g} mm ({grain.diameter / INCH:.3g} in), {1e3 * grain.mass():.3g} g",
+             f"{both('density', grain.solid_density, 'kg/m3')}, sphericity {form.sphericity:.3f}, {2e3 * form.bounding_radius:.3g} mm over all")]
+    if grain.spread:
+        rows.append(("sizes", f"{1e3 * grain.spread.smallest:.3g} to {1e3 * grain.spread.largest:.3g} mm",
+                     f"{CLASSES} classes of equal mass; the mass is that of the mean grain, the rest of the largest"))
+    return rows
 
 
 def step_rows(grain, critical, step, speed, seconds, count):

@@ -89,6 +89,20 @@ def interpolated(table, re):
     return table[-1][1] * re / table[-1][0]
 
 
+def stress_about(grain, mud, speed):
+    """[Pa] of the fluid around a grain that moves through it."""
+    return mud.k * (abs(speed) / grain.diameter)**mud.n + YIELD_WEIGHT * mud.tau0
+
+
+def said_settling(grain, sphericity, mud, law, source):
+    """(value, reason) of the settling velocity, for a table."""
+    speed = settling_speed(grain, sphericity, mud, law)
+    if speed == 0:
+        return "0 m/s", f"the yield stress holds a grain in mud at rest ({source}), sphericity {sphericity:.3f}"
+    number = mud.density * speed**2 / stress_about(grain, mud, speed)
+    return f"{speed:.4g} m/s, particle Reynolds number {number:.3g}", f"of one grain in fluid at rest ({source}), sphericity {sphericity:.3f}"
+
+
 def settling_speed(grain, sphericity, mud, law):
     """[m/s], signed: above 0 falls, 0 where the yield stress holds the grain. One grain in unbounded mud at rest, (pi/8) d^2 X C_D Re = weight."""
     excess = grain.solid_density - mud.density
@@ -96,7 +110,7 @@ def settling_speed(grain, sphericity, mud, law):
     table = drag_table(law, sphericity)
 
     def drag(speed):
-        stress = mud.k * (speed / grain.diameter)**mud.n + YIELD_WEIGHT * mud.tau0
+        stress = stress_about(grain, mud, speed)
         return math.pi / 8 * grain.diameter**2 * stress * interpolated(table, mud.density * speed**2 / stress)
 
     low, high = 1e-9, 1e3

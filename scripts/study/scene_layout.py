@@ -11,6 +11,7 @@ from . import programs
 from .annulus_flow import Annulus, Mud, laminar_limit, metzner_reed, pressure_gradient, slot_speed
 from .programs import BUILD, Failure
 from .spread import Spread
+from .units import PENETRATION
 
 PI, GRAVITY = math.pi, 9.81
 YIELD_NUMBER = 0.0476667  # of a sphere that a yield stress just holds: tau0 / ((rho_p - rho_f) g d), Beris et al. 1985
@@ -195,7 +196,8 @@ def lay_out(wish):
     else:
         per_second = wish.rate / (wish.solid_density * grain)
         count = round(per_second * wish.seconds)
-        why_count = f"{per_second:.4g} per second ({wish.rate:.4g} kg/s) in {wish.seconds:g} s"
+        speed = wish.rate / (wish.solid_density * PI * wish.hole**2)  # of the bit that makes them
+        why_count = f"{per_second:.4g} per second ({wish.rate:.4g} kg/s, {speed / PENETRATION['ft/h']:.3g} ft/h of the hole) in {wish.seconds:g} s"
     layout = Layout(wish, annulus, gradient, wide, metzner_reed(mud, annulus.hydraulic_diameter, wish.velocity), metzner_reed(mud, 2 * annulus.widest, wide),
                     laminar_limit(wish.n), wish.tau0 / (YIELD_NUMBER * GRAVITY * abs(wish.solid_density - wish.mud_density) or math.inf), cells, why_cells,
                     fluid_step, why_fluid_step, critical, interval_of(wish, fluid_step, critical), count, why_count, [])
@@ -212,7 +214,7 @@ def warnings_of(layout):
         said.append(f"the narrow side ({1e3 * annulus.narrowest:.3g} mm) lets no grain of {1e3 * largest:.3g} mm through: grains wedge there")
     if max(layout.reynolds_mean, layout.reynolds_wide) > layout.laminar_limit:
         said.append(f"the flow is turbulent where Re is above {layout.laminar_limit:.4g}, and is computed as laminar: "
-                    "pressure drop and transport come out too low")
+                    "pressure drop and transport come out too low; a model in constant/turbulenceProperties computes it (docs/turbulence.md)")
     smallest = annulus.narrowest / cells[0]
     if smallest < 0.1 * wish.diameter:
         said.append(f"cells of the narrow side are {1e3 * smallest:.2g} mm, a tenth of a grain or less: void fractions there are spread over three grains")

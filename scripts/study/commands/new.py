@@ -7,26 +7,16 @@ import shutil
 import sys
 import tempfile
 
-from .. import grain_shapes, scene_bed, scene_dry, scene_files, scene_grains, scene_layout
+from .. import grain_shapes, scene_bed, scene_dry, scene_files, scene_grains, scene_layout, scene_words
 from ..annulus_flow import Mud
 from ..programs import Failure
+from ..scene_words import read
 from ..spread import spread_of
-from ..units import (CONSISTENCY, DENSITY, FLOW, LENGTH, MASS_RATE, PENETRATION, SPEED, STIFFNESS, STRESS, VISCOSITY, both, positive, quantity)
+from ..units import FLOW, PENETRATION, both
 
 EPILOG = """lengths take m, mm, in, ft; the flow m/s, ft/min (mean velocity) or l/min, gpm, m3/h (volume); densities kg/m3, sg, ppg;
 stresses Pa, lbf/100ft2; a number without a unit is SI. Everything can be changed afterwards in the file scene of the case, or for one run
 by its options (run --help)."""
-
-
-def share(what, text, low, high):
-    """A plain number within bounds."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = high + 1
-    if not low <= value <= high:
-        raise Failure(f"--{what}: '{text}' is not a number from {low:g} to {high:g}")
-    return value
 
 
 KINDS = {"section": "annulus, periodic, filled once", "well": "annulus with cuttings injected at the inlet", "bed": "fluidised bed in a column",
@@ -49,6 +39,7 @@ class Parser(argparse.ArgumentParser):
 def parser(kind=None):
     """The command line of a kind of scene, or of all."""
     new = Parser(prog="eccentra new", description=__doc__, epilog=EPILOG, allow_abbrev=False)
+    new.add_argument("--ask", action="store_true", help="ask for the main options that are missing; so does a terminal where none is given")
     new.add_argument("kind", choices=KINDS, help="; ".join(f"{name}: {said}" for name, said in KINDS.items()))
     new.add_argument("name", type=pathlib.Path, help="folder of the case; must not exist")
     if kind in (None, "section", "well"):
@@ -142,34 +133,30 @@ def mud_of(words):
     if words.pv is not None:
         if any(value is not None for value in (words.tau0, words.k, words.n)):
             raise Failure("--pv and --yp stand for tau0, k and n: give the one or the other")
-        return quantity("yp", words.yp, STRESS)[0], positive("pv", words.pv, VISCOSITY)[0], 1.0
-    tau0 = quantity("tau0", words.tau0 or "0", STRESS)[0]
-    if tau0 < 0:
-        raise Failure(f"--tau0: '{words.tau0}' is below 0; expected a yield stress of at least 0")
-    return tau0, positive("k", words.k or "0.28", CONSISTENCY)[0], share("n", words.n or "0.65", 0.1, 1.5)
+        return read(words, "yp"), read(words, "pv"), 1.0
+    for name in ("tau0", "k", "n"):
+        setattr(words, name, scene_words.default_of(words, name))
+    return read(words, "tau0"), read(words, "k"), read(words, "n")
 
 
 def wishes(words):
     """What the user wants, in SI, as a Wishes of scene_layout."""
-    hole, pipe = (positive(name, getattr(words, name), LENGTH)[0] for name in ("hole", "pipe"))
+    hole, pipe = read(words, "hole"), read(words, "pipe")
     if pipe >= hole:
         raise Failure(f"--pipe: '{words.pipe}' does not fit into the hole of '{words.hole}'; expected a smaller diameter")
-    speed, kind = positive("flow", words.flow, SPEED, FLOW)
+    words.length, words.rate = (scene_words.default_of(words, name) for name in ("length", "rate"))
+    speed, kind = read(words, "flow")
     area = 0.25 * scene_layout.PI * (hole**2 - pipe**2)
-    density = positive("solid-density", words.solid_density, DENSITY)[0]
-    rate, rate_kind = positive("rate", words.rate or "0.1512", MASS_RATE, PENETRATION)
+    density = read(words, "solid-density")
+    rate, rate_kind = read(words, "rate")
     tau0, k, n = mud_of(words)
+    plain = {name: read(words, name) for name in ("eccentricity", "inclination", "rpm", "length", "diameter", "solid", "stiffness", "friction",
+                                                  "restitution", "rolling", "seconds")}
     return scene_layout.Wishes(
-        kind=words.kind, hole=0.5 * hole, pipe=0.5 * pipe, eccentricity=share("eccentricity", words.eccentricity, 0, 0.95),
-        inclination=share("inclination", words.inclination, 0, 90), rpm=share("rpm", words.rpm, -1000, 1000),
-        length=positive("length", words.length or ("0.3" if words.kind == "section" else "1.2"), LENGTH)[0],
-        velocity=speed / area if kind is FLOW else speed, tau0=tau0, k=k, n=n, mud_density=positive("density", words.density, DENSITY)[0],
-        shape=words.shape, diameter=positive("diameter", words.diameter, LENGTH)[0], solid_density=density,
-        solid=share("solid", words.solid, 0, 0.3), rate=rate * density * 0.25 * scene_layout.PI * hole**2 if rate_kind is PENETRATION else rate,
-        stiffness=stiffness_of(words.stiffness), friction=share("friction", words.friction, 0, 2),
-        restitution=share("restitution", words.restitution, 0.05, 1), rolling=share("rolling", words.rolling, 0, 1),
-        seconds=share("seconds", words.seconds, 0.01, 1e5), cells=words.cells, fluid_step=words.fluid_step, interval=words.interval, seed=words.seed,
-        spread=words.spread)
+        kind=words.kind, hole=0.5 * hole, pipe=0.5 * pipe, velocity=speed / area if kind is FLOW else speed, tau0=tau0, k=k, n=n,
+        mud_density=read(words, "density"), shape=words.shape, solid_density=density,
+        rate=rate * density * 0.25 * scene_layout.PI * hole**2 if rate_kind is PENETRATION else rate, cells=words.cells, fluid_step=words.fluid_step,
+        interval=words.interval, seed=words.seed, spread=words.spread, **plain)
 
 
 def table(layout):
@@ -187,9 +174,9 @@ def table(layout):
     steps = wish.seconds / found.fluid_step
     grain = scene_grains.Grain(wish.shape, wish.diameter, wish.solid_density, wish.stiffness, wish.friction, wish.restitution, wish.rolling, wish.spread)
     form = scene_grains.form_of(grain)
+    lines += scene_dry.grain_rows(grain, form)
     mud = Mud(wish.tau0, wish.k, wish.n, wish.mud_density)
-    lines.append(("settling velocity", f"{scene_grains.settling_speed(grain, form.sphericity, mud, 'chien'):.4g} m/s",
-                  f"of one grain in mud at rest (Chien 1994), sphericity {form.sphericity:.3f}"))
+    lines.append(("settling velocity", *scene_grains.said_settling(grain, form.sphericity, mud, "chien", "Chien 1994")))
     if wish.tau0 > 0:
         lines.append(("largest grain that the mud holds", f"{1e3 * found.held_diameter:.3g} mm at rest",
                       "Beris et al. 1985: tau0 = 0.0477 (rho_p - rho_f) g d"))
@@ -213,55 +200,39 @@ def table(layout):
     return lines_of(lines)
 
 
-def stiffness_of(text):
-    """[Pa], within what LIGGGHTS takes without its switches for other materials."""
-    value = positive("stiffness", text, STIFFNESS)[0]
-    if not 5e6 <= value <= 1e9:
-        raise Failure(f"--stiffness: '{text}' is not from 5 MPa to 1 GPa; LIGGGHTS asks for soft_particles or hard_particles in the script beyond")
-    return value
-
-
 def grain_of(words):
     """The grain in SI."""
-    return scene_grains.Grain(
-        shape=words.shape, diameter=positive("diameter", words.diameter, LENGTH)[0], solid_density=positive("solid-density", words.solid_density, DENSITY)[0],
-        stiffness=stiffness_of(words.stiffness), friction=share("friction", words.friction, 0, 2),
-        restitution=share("restitution", words.restitution, 0.05, 1), rolling=share("rolling", words.rolling, 0, 1), spread=words.spread)
-
-
-def whole(what, text, most):
-    """A whole number from 1 on."""
-    if not (text.isascii() and text.isdigit() and 1 <= int(text) <= most):
-        raise Failure(f"--{what}: '{text}' is not a whole number from 1 to {most}")
-    return int(text)
+    plain = {name.replace("-", "_"): read(words, name) for name in ("diameter", "solid-density", "stiffness", "friction", "restitution", "rolling")}
+    return scene_grains.Grain(shape=words.shape, spread=words.spread, **plain)
 
 
 def plan_of(words):
     """The layout of a heap, a drum or a bed."""
     grain = grain_of(words)
-    seconds = None if words.seconds is None else share("seconds", words.seconds, 0.01, 1e5)
+    seconds = None if words.seconds is None else read(words, "seconds")
     if words.kind == "heap":
-        height = None if words.height is None else positive("height", words.height, LENGTH)[0]
-        return scene_dry.heap(argparse.Namespace(count=whole("count", words.count, 10**7), height=height, seconds=seconds, step=words.step, seed=words.seed),
-                              grain)
+        height = None if words.height is None else read(words, "height")
+        return scene_dry.heap(argparse.Namespace(count=read(words, "count"), height=height, seconds=seconds, step=words.step, seed=words.seed), grain)
     if words.kind == "drum":
-        return scene_dry.drum(argparse.Namespace(
-            radius=0.5 * positive("drum", words.drum, LENGTH)[0], length=positive("length", words.length, LENGTH)[0], fill=share("fill", words.fill, 0.01, 0.6),
-            rpm=share("rpm", words.rpm, -1000, 1000), seconds=seconds, step=words.step, seed=words.seed), grain)
+        return scene_dry.drum(argparse.Namespace(radius=0.5 * read(words, "drum"), length=read(words, "length"), fill=read(words, "fill"),
+                                                 rpm=read(words, "rpm"), seconds=seconds, step=words.step, seed=words.seed), grain)
     density, viscosity = scene_bed.FLUIDS[words.fluid]
     if words.density is not None:
-        density = positive("density", words.density, DENSITY)[0]
+        density = read(words, "density")
     if words.viscosity is not None:
-        viscosity = positive("viscosity", words.viscosity, VISCOSITY)[0]
+        viscosity = read(words, "viscosity")
     return scene_bed.bed(argparse.Namespace(
-        width=positive("width", words.width, LENGTH)[0], filling=positive("filling", words.filling, LENGTH)[0], density=density, viscosity=viscosity,
-        velocity=words.velocity, first=words.first_velocity, seconds=seconds, settling=share("settling", words.settling, 0.01, 1e3), law=words.drag,
-        wall_friction=grain.friction if words.wall_friction is None else share("wall-friction", words.wall_friction, 0, 2), seed=words.seed), grain)
+        width=read(words, "width"), filling=read(words, "filling"), density=density, viscosity=viscosity, velocity=words.velocity,
+        first=words.first_velocity, seconds=seconds, settling=read(words, "settling"), law=words.drag,
+        wall_friction=grain.friction if words.wall_friction is None else read(words, "wall-friction"), seed=words.seed), grain)
 
 
 def lines_of(rows):
-    """Rows (name, value, reason) as lines."""
-    return [f"  {name:32} {value:52} {why}".rstrip() for name, value, why in rows]
+    """Rows (name, value, reason) as lines; in a narrow terminal the reason has a line of its own."""
+    lines = [f"  {name:32} {value:52} {why}".rstrip() for name, value, why in rows]
+    if not sys.stdout.isatty() or max(map(len, lines)) <= shutil.get_terminal_size().columns:
+        return lines
+    return [line for name, value, why in rows for line in (f"  {name:32} {value}", f"      {why}") if line.strip()]
 
 
 def with_files(shape, folder):
@@ -286,13 +257,39 @@ def main():
         return new(folder)
 
 
+def answer(prompt):
+    """A line of the user."""
+    sys.stdout.write(prompt)
+    sys.stdout.flush()
+    line = sys.stdin.readline()
+    if not line:
+        raise Failure("the answers end before the questions; expected one line each, an empty one for what stands in brackets")
+    return line
+
+
+def words_of(arguments):
+    """The command line, completed by answers where the user sits at a terminal and gives no option, or wants to be asked."""
+    helps = bool({"-h", "--help"} & set(arguments))
+    terminal = sys.stdin.isatty() and sys.stdout.isatty() and not helps
+    if terminal and not arguments:
+        arguments = [answer(f"kind of scene ({', '.join(KINDS)}): ").strip(), answer("folder of the case: ").strip()]
+    kind = next((word for word in arguments if word in KINDS), None)
+    parsed = parser(None if helps else kind)
+    words = parsed.parse_args(arguments)
+    asks = words.ask or (terminal and not scene_words.given(arguments) - {"plan"})
+    if asks:
+        arguments = [word for word in arguments if word != "--ask"]
+        arguments += scene_words.ask(words, parsed, arguments, answer)
+    return words, [f"--{name} {scene_words.default_of(words, name)}" for name in scene_words.missing(words, arguments)
+                   if scene_words.default_of(words, name) and name != "spread"]
+
+
 def new(folder):
     """With a folder for files of a while."""
-    kind = next((word for word in sys.argv[1:] if word in KINDS), None)
-    words = parser(None if {"-h", "--help"} & set(sys.argv[1:]) else kind).parse_args()
+    words, defaults = words_of(sys.argv[1:])
     words.shape, files = with_files(words.shape, folder)
     if words.spread is not None:
-        words.spread = spread_of(words.spread, positive("diameter", words.diameter, LENGTH)[0])
+        words.spread = spread_of(words.spread, read(words, "diameter"))
         words.diameter = f"{words.spread.middle!r}"
         words.shape = "sphere 1" if words.shape == "sphere" else words.shape  # sizes are those of a template of clusters
         if words.spread.file:  # runs copy files of this name
@@ -306,6 +303,8 @@ def new(folder):
         layout = plan_of(words)
         lines, warnings = lines_of(layout.rows), layout.warnings
     sys.stdout.write("\n".join(lines) + "\n")
+    if defaults:
+        sys.stdout.write(f"  by default: {', '.join(defaults)}\n")
     for warning in warnings:
         sys.stdout.write(f"warning: {warning}\n")
     if not words.plan:
