@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace eccentra::report {
 namespace {
@@ -124,7 +125,12 @@ void draw_beds(const std::vector<Case>& cases, const std::filesystem::path& file
         std::max(side_height, margin * (length * std::abs(std::cos(angle)) + diameter * std::abs(std::sin(angle))));
     hole = std::max(hole, diameter);
   }
-  const double scale = pixels_per_hole / hole;
+  constexpr double widest = 8000; // pixels of a picture
+  const double scale = std::min(pixels_per_hole / hole, widest / std::accumulate(widths.begin(), widths.end(), 0.0));
+  constexpr double narrowest = 1000; // pixels: room for the numbers of the scales of colour
+  const double stretch = std::max(1.0, narrowest / scale / std::accumulate(widths.begin(), widths.end(), 0.0));
+  for (double& w : widths)
+    w *= stretch;
   const double cross_height = margin * hole;
   double width = 0;
   std::vector<std::vector<std::string>> lines;

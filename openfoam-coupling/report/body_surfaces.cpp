@@ -28,7 +28,7 @@ using Eigen::Vector3d;
 /// Meridians of a sphere, from fine to coarse.
 constexpr std::array<int, 4> kFineness = {20, 12, 8, 6};
 constexpr double kMargin = 0.02; // so that no cracks show between the spheres of a body
-constexpr const char* kCopied[] = {"body", "type", "shape", "velocity", "v", "omega"};
+constexpr const char* kCopied[] = {"body", "id", "type", "shape", "velocity", "v", "omega", "speed"};
 
 /// The rows of one body: points with a radius that follow each other.
 struct Body {
@@ -141,7 +141,7 @@ BodySurfaces::BodySurfaces(vtkPolyData& bodies, std::size_t most) : patterns_(st
 
 BodySurfaces::~BodySurfaces() = default;
 
-vtkSmartPointer<vtkPolyData> BodySurfaces::of(vtkPolyData& bodies) {
+vtkSmartPointer<vtkPolyData> BodySurfaces::of(vtkPolyData& bodies, const Keep& keep) {
   const auto points = vtkSmartPointer<vtkPoints>::New();
   const auto triangles = vtkSmartPointer<vtkCellArray>::New();
   const auto normals = vtkSmartPointer<vtkFloatArray>::New();
@@ -161,6 +161,8 @@ vtkSmartPointer<vtkPolyData> BodySurfaces::of(vtkPolyData& bodies) {
     return points->InsertNextPoint(place.data());
   };
   for (const Body& body : bodies_of(bodies)) {
+    if (!keep({body.place.x(), body.place.y(), body.place.z()}))
+      continue;
     const Pattern& pattern = patterns_->of(bodies, body);
     const double size = body.shape < 0 ? body.radius : 1;
     const vtkIdType first = points->GetNumberOfPoints();
@@ -172,11 +174,24 @@ vtkSmartPointer<vtkPolyData> BodySurfaces::of(vtkPolyData& bodies) {
     }
   }
   // Rounded bodies have their own triangles.
+  vtkDataArray* tags = bodies.GetPointData()->GetArray("body");
+  std::map<double, bool> kept; // by the number of the body
+  const auto keeps = [&](vtkIdType row) {
+    const Vector3d p = point_of(bodies, row);
+    if (tags == nullptr)
+      return keep({p.x(), p.y(), p.z()});
+    const auto [at, fresh] = kept.try_emplace(tags->GetTuple1(row));
+    if (fresh)
+      at->second = keep({p.x(), p.y(), p.z()});
+    return at->second;
+  };
   vtkDataArray* own_normals = bodies.GetPointData()->GetArray("Normals");
   std::map<vtkIdType, vtkIdType> moved;
   const auto corners = vtkSmartPointer<vtkIdList>::New();
   vtkCellArray& polys = *bodies.GetPolys();
   for (polys.InitTraversal(); polys.GetNextCell(corners);) {
+    if (!keeps(corners->GetId(0)))
+      continue;
     for (vtkIdType k = 0; k < corners->GetNumberOfIds(); ++k) {
       const vtkIdType row = corners->GetId(k);
       const auto [at, fresh] = moved.try_emplace(row);

@@ -3,21 +3,19 @@
 // Implements picture_parts.h with VTK.
 #include "report/picture_parts.h"
 
+#include "report/body_surfaces.h"
+
 #include <vtkArrayCalculator.h>
 #include <vtkCamera.h>
-#include <vtkCellArray.h>
 #include <vtkCutter.h>
 #include <vtkDataSetMapper.h>
 #include <vtkDoubleArray.h>
-#include <vtkGlyph3DMapper.h>
-#include <vtkIdList.h>
 #include <vtkLineSource.h>
 #include <vtkPlane.h>
 #include <vtkPointData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkScalarBarActor.h>
-#include <vtkSphereSource.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 
@@ -28,7 +26,12 @@
 namespace eccentra::report {
 namespace {
 
+constexpr std::size_t kMostTriangles = 2000000; // of the bodies of one picture
+
 using Stop = std::array<double, 3>;
+
+constexpr std::array<Stop, 4> kBlues = {
+    {{0.95, 0.97, 1.0}, {0.72, 0.83, 0.93}, {0.42, 0.65, 0.83}, {0.13, 0.40, 0.66}}};
 
 /// Even steps through colours of rising lightness; readable in grey, too.
 template <std::size_t n>
@@ -54,70 +57,17 @@ void shade(vtkProperty& property) {
   property.SetDiffuse(0.8);
 }
 
-vtkSmartPointer<vtkActor> sphere_actor(vtkPolyData& bodies, const Colours& colours, const Keep& keep) {
-  const auto chosen = vtkSmartPointer<vtkPolyData>::New();
-  const auto points = vtkSmartPointer<vtkPoints>::New();
-  const auto speed = vtkSmartPointer<vtkDoubleArray>::New();
-  const auto diameter = vtkSmartPointer<vtkDoubleArray>::New();
-  speed->SetName("speed");
-  diameter->SetName("diameter");
-  vtkDataArray* radii = bodies.GetPointData()->GetArray("radius");
-  vtkDataArray* speeds = bodies.GetPointData()->GetArray("speed");
-  for (vtkIdType i = 0; i < bodies.GetNumberOfPoints(); ++i) {
-    Vector p{};
-    bodies.GetPoint(i, p.data());
-    // The points of a surface have the radius 0.
-    if (radii == nullptr || !(radii->GetTuple1(i) > 0) || !keep(p))
-      continue;
-    points->InsertNextPoint(p.data());
-    speed->InsertNextValue(speeds->GetTuple1(i));
-    diameter->InsertNextValue(2 * radii->GetTuple1(i));
-  }
-  chosen->SetPoints(points);
-  chosen->GetPointData()->SetScalars(speed);
-  chosen->GetPointData()->AddArray(diameter);
-  const auto sphere = vtkSmartPointer<vtkSphereSource>::New(); // of diameter 1
-  sphere->SetThetaResolution(24);
-  sphere->SetPhiResolution(16);
-  const auto mapper = vtkSmartPointer<vtkGlyph3DMapper>::New();
-  mapper->SetInputData(chosen);
-  mapper->SetSourceConnection(sphere->GetOutputPort());
-  mapper->SetScaleModeToScaleByMagnitude();
-  mapper->SetScaleArray("diameter");
-  mapper->SetScalarModeToUsePointFieldData();
-  mapper->SelectColorArray("speed");
-  mapper->SetLookupTable(colours.bodies);
-  const auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  shade(*actor->GetProperty());
-  return actor;
-}
-
-/// The triangles of rounded bodies, of which the first point decides for each.
-vtkSmartPointer<vtkActor> surface_actor(vtkPolyData& bodies, const Colours& colours, const Keep& keep) {
-  const auto chosen = vtkSmartPointer<vtkPolyData>::New();
-  chosen->SetPoints(bodies.GetPoints());
-  chosen->GetPointData()->SetScalars(bodies.GetPointData()->GetArray("speed"));
-  chosen->GetPointData()->SetNormals(bodies.GetPointData()->GetNormals());
-  const auto triangles = vtkSmartPointer<vtkCellArray>::New();
-  const auto points = vtkSmartPointer<vtkIdList>::New();
-  vtkCellArray& all = *bodies.GetPolys();
-  for (all.InitTraversal(); all.GetNextCell(points);) {
-    Vector p{};
-    bodies.GetPoint(points->GetId(0), p.data());
-    if (keep(p))
-      triangles->InsertNextCell(points);
-  }
-  chosen->SetPolys(triangles);
-  const auto mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
-  mapper->SetInputData(chosen);
-  mapper->SetScalarModeToUsePointData();
-  mapper->SetLookupTable(colours.bodies);
-  mapper->UseLookupTableScalarRangeOn();
-  const auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  shade(*actor->GetProperty());
-  return actor;
+/// A number from 0 to 1 for each point, the same for all of a body and another one for its neighbours: parts of the
+/// golden ratio.
+vtkSmartPointer<vtkDoubleArray> tones(vtkPolyData& surface) {
+  constexpr double golden = 0.6180339887498949;
+  vtkDataArray* tags = surface.GetPointData()->GetArray("body");
+  if (tags == nullptr)
+    tags = surface.GetPointData()->GetArray("id");
+  const auto tone = vtkSmartPointer<vtkDoubleArray>::New();
+  for (vtkIdType i = 0; i < surface.GetNumberOfPoints(); ++i)
+    tone->InsertNextValue(tags == nullptr ? 0.5 : std::fmod(golden * tags->GetTuple1(i), 1.0));
+  return tone;
 }
 
 } // namespace
@@ -125,9 +75,12 @@ vtkSmartPointer<vtkActor> surface_actor(vtkPolyData& bodies, const Colours& colo
 Colours make_colours(double fastest_body, double fastest_fluid) {
   constexpr std::array<Stop, 5> plasma = {
       {{0.24, 0.06, 0.46}, {0.55, 0.09, 0.60}, {0.83, 0.28, 0.46}, {0.97, 0.55, 0.29}, {0.97, 0.90, 0.28}}};
-  constexpr std::array<Stop, 4> blues = {
-      {{0.95, 0.97, 1.0}, {0.72, 0.83, 0.93}, {0.42, 0.65, 0.83}, {0.13, 0.40, 0.66}}};
-  return {scale(plasma, round_up(fastest_body)), scale(blues, round_up(fastest_fluid))};
+  return {scale(plasma, round_up(fastest_body)), scale(kBlues, round_up(fastest_fluid))};
+}
+
+Colours colours_at_rest(double fastest_fluid) {
+  constexpr std::array<Stop, 3> sand = {{{0.62, 0.47, 0.31}, {0.80, 0.65, 0.44}, {0.93, 0.82, 0.62}}};
+  return {scale(sand, 1), scale(kBlues, round_up(fastest_fluid)), true};
 }
 
 vtkSmartPointer<vtkPolyData> with_speed(vtkPolyData* points) {
@@ -155,11 +108,22 @@ double nearly_largest(std::vector<double> values) {
 }
 
 void add_bodies(vtkRenderer& renderer, vtkPolyData& bodies, const Colours& colours, const Keep& keep) {
-  if (bodies.GetNumberOfPoints() == 0)
+  const auto surface = BodySurfaces(bodies, kMostTriangles).of(bodies, keep);
+  if (surface->GetNumberOfPolys() == 0)
     return;
-  renderer.AddActor(sphere_actor(bodies, colours, keep));
-  if (bodies.GetNumberOfPolys() > 0)
-    renderer.AddActor(surface_actor(bodies, colours, keep));
+  if (colours.at_rest)
+    surface->GetPointData()->SetScalars(tones(*surface));
+  else
+    surface->GetPointData()->SetActiveScalars("speed");
+  const auto mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
+  mapper->SetInputData(surface);
+  mapper->SetScalarModeToUsePointData();
+  mapper->SetLookupTable(colours.bodies);
+  mapper->UseLookupTableScalarRangeOn();
+  const auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  shade(*actor->GetProperty());
+  renderer.AddActor(actor);
 }
 
 vtkSmartPointer<vtkActor> flow_slice(vtkUnstructuredGrid& flow, const Colours& colours, const Vector& origin,

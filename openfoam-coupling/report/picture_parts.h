@@ -21,14 +21,19 @@ constexpr int kTextSize = 22;         ///< of pictures, in pixels
 constexpr double kLegendPixels = 130; ///< height of the scales of colour under a picture
 constexpr double kTitlePixels = 70;   ///< height of the names above it
 
-/// Scales of colour from 0 to the fastest body and to the fastest fluid [m/s].
+/// Scales of colour from 0 to the fastest body and to the fastest fluid [m/s]. Bodies at rest have tones of sand, which
+/// tell neighbours apart and mean nothing.
 struct Colours {
   vtkSmartPointer<vtkColorTransferFunction> bodies;
   vtkSmartPointer<vtkColorTransferFunction> fluid;
+  bool at_rest = false;
 };
 
 /// Both speeds are rounded up to a number whose quarters are short; each must be above 0.
 Colours make_colours(double fastest_body, double fastest_fluid);
+
+/// Of bodies at rest.
+Colours colours_at_rest(double fastest_fluid);
 
 /// Adds the point data `speed`, from the velocities of the points (0 without them).
 vtkSmartPointer<vtkPolyData> with_speed(vtkPolyData* points);
@@ -39,7 +44,7 @@ double nearly_largest(std::vector<double> values);
 /// By position, which bodies are drawn.
 using Keep = std::function<bool(const Vector&)>;
 
-/// The bodies of a file with `speed` (with_speed): spheres of the given radius, and the surfaces of rounded bodies.
+/// The surfaces of the bodies of a file with `speed` (with_speed).
 void add_bodies(vtkRenderer& renderer, vtkPolyData& bodies, const Colours& colours, const Keep& keep);
 
 /// The speed of the fluid on a plane.

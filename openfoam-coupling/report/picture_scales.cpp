@@ -55,8 +55,10 @@ void add_scales(vtkRenderer& renderer, const Scales& scales) {
   const double part = length * scales.pixels_per_metre / width;
   constexpr double left = 0.08, height = 0.72;
   add_leader(renderer, left, height, left + part, height, false);
-  add_text(renderer, length < 1 ? fmt::format("{:.3g} mm", 1e3 * length) : fmt::format("{:.3g} m", length), kTextSize,
-           left + part / 2, 0.36);
+  const std::string said = length < 1 ? fmt::format("{:.3g} mm", 1e3 * length) : fmt::format("{:.3g} m", length);
+  constexpr double edge = 6; // pixels, which a short bar's text keeps from the side
+  const double half_text = kLetter * kTextSize * static_cast<double>(said.size()) / 2;
+  add_text(renderer, said, kTextSize, std::max(left + part / 2, (half_text + edge) / width), 0.36);
   const double size = std::hypot(scales.flow[0], scales.flow[1]);
   if (size > 0) {
     constexpr double middle = 0.68, half = 32; // pixels

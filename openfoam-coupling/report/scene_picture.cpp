@@ -27,6 +27,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace eccentra::report {
@@ -37,6 +38,7 @@ constexpr double kSmallest = 300; // pixels of the smaller side
 constexpr double kMargin = 1.06;  // around what is drawn
 constexpr double kTilt = 0.12;    // [rad]: a scene without a fluid is seen from a little above
 constexpr double kSlowest = 1e-2; // [m/s], of a scale of colour
+constexpr double kAtRest = 1e-3;  // [m/s]
 constexpr double kParallel = 0.9; // cosine from which a direction counts as that of another one
 
 double dot(const Vector& a, const Vector& b) {
@@ -84,6 +86,7 @@ struct Column {
   vtkSmartPointer<vtkUnstructuredGrid> flow;
   std::vector<vtkSmartPointer<vtkPolyData>> meshes;
   Bounds bounds;
+  std::array<double, 6> seen{}; ///< a body whose centre is outside has rolled far away and is not drawn
   Vector up = {0, 0, 1};
   Vector away = {0, 1, 0}; ///< the direction of sight, across `up`
   Vector right = {1, 0, 0};
@@ -91,27 +94,38 @@ struct Column {
   double half_width = 0, half_height = 0; ///< [m] of the picture
 };
 
-/// Of all but the outermost bodies, which may have rolled far away; with the largest radius around the centres.
-std::array<double, 6> bounds_of_bodies(vtkPolyData& bodies) {
-  std::array<double, 6> sides = {1, -1, 1, -1, 1, -1};
+/// Adds the bodies, and says which centres are seen: along a direction in which a few bodies have rolled so far away
+/// that the others would be small, those of the others.
+void add_bodies_to(Column& column) {
+  vtkPolyData& bodies = *column.bodies;
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  column.seen = {-endless, endless, -endless, endless, -endless, endless};
   const vtkIdType count = bodies.GetNumberOfPoints();
   if (count == 0)
-    return sides;
+    return;
   double largest = 0;
   if (vtkDataArray* radii = bodies.GetPointData()->GetArray("radius"))
     largest = radii->GetRange()[1];
   constexpr double outside = 0.03; // of all, on each side
+  constexpr double far = 0.8;      // of the width of the others, from their side
   const auto skipped = static_cast<std::ptrdiff_t>(outside * static_cast<double>(count));
+  std::array<double, 6> sides{};
   for (std::size_t d = 0; d < 3; ++d) {
     std::vector<double> places;
     for (vtkIdType i = 0; i < count; ++i)
       places.push_back(bodies.GetPoint(i)[d]);
-    std::nth_element(places.begin(), places.begin() + skipped, places.end());
-    sides[2 * d] = places[static_cast<std::size_t>(skipped)] - largest;
-    std::nth_element(places.begin(), places.end() - 1 - skipped, places.end());
-    sides[2 * d + 1] = *(places.end() - 1 - skipped) + largest;
+    std::sort(places.begin(), places.end());
+    double low = places.front(), high = places.back();
+    const double first = places[static_cast<std::size_t>(skipped)], last = *(places.end() - 1 - skipped);
+    const double tolerated = far * (last - first + 2 * largest);
+    if (first - low > tolerated)
+      low = column.seen[2 * d] = first;
+    if (high - last > tolerated)
+      high = column.seen[2 * d + 1] = last;
+    sides[2 * d] = low - largest;
+    sides[2 * d + 1] = high + largest;
   }
-  return sides;
+  column.bounds.add(sides);
 }
 
 /// Walls enlarge the bounds of the bodies; a cylinder does so across its axis.
@@ -185,7 +199,7 @@ Column column_of(const View& view) {
   column.flow = read_flow(data.folder, data.dem.time_step > 0 ? std::max(0.0, time) : -1);
   for (const WallMesh& mesh : data.dem.meshes)
     column.meshes.push_back(mesh_of_wall(data, mesh));
-  column.bounds.add(bounds_of_bodies(*column.bodies));
+  add_bodies_to(column);
   add_walls_to(column.bounds, data, column.meshes);
   if (column.flow != nullptr) {
     std::array<double, 6> sides{};
@@ -270,8 +284,12 @@ void draw_column(vtkRenderer& renderer, const Column& column, const Colours& col
   if (column.flow != nullptr)
     renderer.AddActor(flow_slice(*column.flow, colours, centre, column.away));
   const bool cut = column.flow != nullptr;
-  add_bodies(renderer, *column.bodies, colours,
-             [&](const Vector& p) { return !cut || dot(along(p, 1, centre, -1), column.away) < 0; });
+  add_bodies(renderer, *column.bodies, colours, [&](const Vector& p) {
+    for (std::size_t d = 0; d < 3; ++d)
+      if (p[d] < column.seen[2 * d] || p[d] > column.seen[2 * d + 1])
+        return false;
+    return !cut || dot(along(p, 1, centre, -1), column.away) < 0;
+  });
   for (const auto& [id, wall] : column.view->data->dem.walls)
     add_wall(renderer, column, wall);
   for (const auto& mesh : column.meshes)
@@ -311,7 +329,10 @@ Colours colours_of(const std::vector<Column>& columns) {
       fluid = std::max(fluid, range[1]);
     }
   }
-  return make_colours(std::max(nearly_largest(speeds), kSlowest), fluid);
+  const double fastest = nearly_largest(speeds);
+  if (fastest < kAtRest)
+    return colours_at_rest(fluid);
+  return make_colours(std::max(fastest, kSlowest), fluid);
 }
 
 std::string caption_of(const Case& data, const ParticleFile& file) {
@@ -321,12 +342,20 @@ std::string caption_of(const Case& data, const ParticleFile& file) {
   return !(data.dem.time_step > 0) ? fmt::format("step {}", file.step) : fmt::format("t = {:.3g} s", time);
 }
 
+void share_bounds(Column& column, const Bounds& bounds, const std::array<double, 6>& seen) {
+  column.bounds.add(bounds.sides);
+  for (std::size_t d = 0; d < 3; ++d) {
+    column.seen[2 * d] = std::min(column.seen[2 * d], seen[2 * d]);
+    column.seen[2 * d + 1] = std::max(column.seen[2 * d + 1], seen[2 * d + 1]);
+  }
+}
+
 /// Pictures of one case have one scale.
 void share_bounds(std::vector<Column>& columns) {
   for (Column& column : columns)
     for (const Column& other : columns)
       if (&other != &column && other.view->data == column.view->data)
-        column.bounds.add(other.bounds.sides);
+        share_bounds(column, other.bounds, other.seen);
   for (Column& column : columns)
     choose_sight(column);
 }
@@ -387,7 +416,10 @@ void draw_columns(const std::vector<Column>& columns, const Colours& colours, co
     left = right;
   }
   const auto legend = viewport(0, width, 0, kLegendPixels);
-  add_bar(*legend, colours.bodies, "speed of the bodies [m/s]", fluid ? 0.08 : 0.18, fluid ? 0.36 : 0.64);
+  if (colours.at_rest)
+    add_text(*legend, "the bodies are at rest", kTextSize, fluid ? 0.26 : 0.5, 0.86);
+  else
+    add_bar(*legend, colours.bodies, "speed of the bodies [m/s]", fluid ? 0.08 : 0.18, fluid ? 0.36 : 0.64);
   if (fluid)
     add_bar(*legend, colours.fluid, "speed of the fluid [m/s]", 0.56, 0.36);
   window->Render();
@@ -431,6 +463,8 @@ std::vector<View> strip(const Case& data, std::size_t count) {
   if (data.dem.time_step > 0)
     while (first < last && time_of(data, data.spheres[first]) < -data.dem.time_step)
       ++first;
+  while (first < last && read_points(data.spheres[first].path)->GetNumberOfPoints() == 0)
+    ++first;
   count = std::min(count, last - first + 1);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t file = count == 1 ? last : first + i * (last - first) / (count - 1);
@@ -457,11 +491,13 @@ void draw_film(const std::vector<View>& views, const std::filesystem::path& file
   share_bounds(sampled);
   const Colours colours = colours_of(sampled);
   const Bounds bounds = sampled.front().bounds;
+  const std::array<double, 6> seen = sampled.front().seen;
   sampled.clear();
   std::vector<std::filesystem::path> pictures;
   for (const View& view : views) {
     Column column = column_of(view);
     column.bounds = bounds;
+    column.seen = seen;
     choose_sight(column);
     pictures.push_back(file.string() + "." + std::to_string(pictures.size()));
     draw_columns({column}, colours, pictures.back());

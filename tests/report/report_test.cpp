@@ -148,6 +148,53 @@ TEST(Report, DrawsARunOfLiggghtsAlone) {
   EXPECT_NE(contents(folder / "report/report.html").find("data:image/png;base64,"), std::string::npos);
 }
 
+/// Columns of a picture in which there is a colour, from the left: neither white nor grey nor black.
+std::vector<bool> coloured_columns(const fs::path& file, double top) {
+  const auto reader = vtkSmartPointer<vtkPNGReader>::New();
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  vtkImageData& image = *reader->GetOutput();
+  const int width = image.GetDimensions()[0], height = image.GetDimensions()[1];
+  std::vector<bool> columns(static_cast<std::size_t>(width));
+  for (int x = 0; x < width; ++x)
+    for (int y = static_cast<int>(top * height); y < height; ++y) { // above the scale of colours
+      const double red = image.GetScalarComponentAsDouble(x, y, 0, 0);
+      const double blue = image.GetScalarComponentAsDouble(x, y, 0, 2);
+      if (std::abs(red - blue) > 40)
+        columns[static_cast<std::size_t>(x)] = true;
+    }
+  return columns;
+}
+
+// A row of 60 spheres at rest and one that has rolled away: the row is whole in the picture, which it fills.
+TEST(Report, CutsNoBodyAtTheSideOfThePicture) {
+  for (const bool rolled : {false, true}) {
+    const fs::path folder = fresh_folder("row");
+    std::ostringstream points, radii, still;
+    points << "# vtk DataFile Version 2.0\nrow\nASCII\nDATASET POLYDATA\nPOINTS 61 float\n";
+    for (int i = 0; i < 61; ++i) {
+      points << (i < 60 ? 0.01 * i : rolled ? 5 : 0.6) << " 0 0.005\n";
+      radii << "0.005\n";
+      still << "0 0 0\n";
+    }
+    write_file(folder / "particles_100.vtk", points.str() +
+                                                 "POINT_DATA 61\nSCALARS radius float 1\nLOOKUP_TABLE default\n" +
+                                                 radii.str() + "VECTORS v float\n" + still.str());
+    write_file(folder / "log.liggghts", "Created orthogonal box = (-1 -1 0) to (6 1 1)\ntimestep 1e-3\n"
+                                        "fix weight all gravity 9.81 vector 0 0 -1\n"
+                                        "fix floor all wall/gran model hertz primitive type 1 zplane 0\n");
+    const ProgramResult run = report({folder});
+    ASSERT_EQ(run.status, 0) << run.output;
+    const std::vector<bool> columns = coloured_columns(folder / "report/scene.png", 0.4);
+    const auto width = static_cast<std::ptrdiff_t>(columns.size());
+    const auto left = std::find(columns.begin(), columns.end(), true) - columns.begin();
+    const auto right = std::find(columns.rbegin(), columns.rend(), true) - columns.rbegin();
+    EXPECT_GT(left, 3) << rolled;
+    EXPECT_GT(right, 3) << rolled;
+    EXPECT_LT(left + right, 0.15 * static_cast<double>(width)) << rolled;
+  }
+}
+
 TEST(Report, SaysWhatAFolderLacks) {
   const fs::path folder = fresh_folder("nothing");
   const ProgramResult run = report({folder});
