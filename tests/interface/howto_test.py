@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 
 def main(page, programs, cases):
@@ -17,6 +18,7 @@ def main(page, programs, cases):
     if not blocks:
         sys.exit(f"howto_test: {page}: no block of commands")
     environment = dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}", ECCENTRA_BIN=str(programs))
+    begun = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(cases, pathlib.Path(folder) / "cases", ignore=shutil.ignore_patterns("results*"))
         for number, block in enumerate(blocks, 1):
@@ -29,7 +31,7 @@ def main(page, programs, cases):
         missing = [name for name in promised if not (pathlib.Path(folder) / name).is_file()]
         if missing:
             sys.exit(f"howto_test: {page}: its commands do not make {', '.join(sorted(missing))}")
-    print(f"howto_test: {page}: {len(blocks)} blocks, {len(promised)} files")
+    print(f"howto_test: {page}: {len(blocks)} blocks, {len(promised)} files, {time.monotonic() - begun:.0f} s")
 
 
 if __name__ == "__main__":
