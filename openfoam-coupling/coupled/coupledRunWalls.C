@@ -4,6 +4,7 @@
 #include "coupled/coupledRun.H"
 
 #include "coupled/wallPatches.H"
+#include "support/foam_compat.H"
 #include "support/inputError.H"
 #include "support/processGuards.H"
 
@@ -27,7 +28,7 @@ constexpr label kNamed = 5;
 /// The same text on all ranks.
 void share(std::string& text) {
   string all(text);
-  Pstream::scatter(all);
+  compat::broadcast(all);
   text = all;
 }
 
@@ -71,7 +72,7 @@ std::string coupledRun::compare_walls(const link::WallDescription& walls) {
     throw link::Refusal(verdict.refusal);
   scalarList chords(label(patches.size()), Zero);
   std::copy(verdict.chord_heights.begin(), verdict.chord_heights.end(), chords.begin());
-  Pstream::scatter(chords);
+  compat::broadcast(chords);
   // A particle may lie behind an opening; behind a wall only as far as the mesh's faces cut its arc short.
   depths_.assign(mesh_.boundaryMesh().size(), {0.0, exchange::kBehindOpening});
   label next = 0;

@@ -5,6 +5,7 @@
 
 #include "coupled/fieldsOfParts.H"
 #include "flow/flowTurbulence.H"
+#include "support/foam_compat.H"
 #include "support/halfWritten.H"
 
 #include "link/checkpoint/checkpoint_choice.h"
@@ -66,8 +67,7 @@ const char* const kWriting = "no checkpoint could be written: ";
 std::string shared(const std::string& sentence) {
   List<string> all(Pstream::nProcs());
   all[Pstream::myProcNo()] = sentence;
-  Pstream::gatherList(all);
-  Pstream::scatterList(all);
+  compat::allGather(all);
   for (const string& one : all)
     if (!one.empty())
       return one;
@@ -242,8 +242,7 @@ std::string write(averagedFlow& flow, bool pending, const std::vector<scalarFiel
 std::uint64_t layoutOf(const fvMesh& mesh) {
   List<label> cells(Pstream::nProcs());
   cells[Pstream::myProcNo()] = mesh.nCells();
-  Pstream::gatherList(cells);
-  Pstream::scatterList(cells);
+  compat::allGather(cells);
   std::uint64_t hash = 0xcbf29ce484222325;
   for (const label count : cells)
     hash = (hash ^ std::uint64_t(count)) * 0x100000001b3;

@@ -3,6 +3,7 @@
 // Progress line and cost table of a flow run.
 #include "flow/flowProgress.H"
 
+#include "support/foam_compat.H"
 #include "support/inputError.H"
 
 #include "OSspecific.H"
@@ -98,7 +99,7 @@ void flowProgress::report() {
   ++steps_;
   bool speaks = elapsed() - printed_ >= interval_;
   // One clock for all ranks: what follows is collective.
-  Pstream::scatter(speaks);
+  eccentra::compat::broadcast(speaks);
   const bool writes = steps_ % every_ == 0;
   if (!speaks && !writes) {
     return;

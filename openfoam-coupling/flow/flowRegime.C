@@ -139,7 +139,11 @@ rheology::HerschelBulkley kinematicLaw(const viscosityModel& model) {
   const word type(properties.get<word>("transportModel"));
   const dictionary& coeffs = properties.optionalSubDict(type + "Coeffs");
   // Dimensions vary with the index: the number alone counts.
-  const auto number = [&](const char* keyword) { return dimensionedScalar(keyword, coeffs.lookup(keyword)).value(); };
+  const auto number = [&coeffs](const char* keyword) {
+    dimensionedScalar read(keyword, dimless, 0);
+    coeffs.lookup(keyword) >> read;
+    return read.value();
+  };
   const auto index = [&] { return dimensionedScalar("n", dimless, coeffs).value(); };
   if (type == "Newtonian") {
     return {0, dimensionedScalar("nu", dimViscosity, properties).value(), 1, GREAT};
