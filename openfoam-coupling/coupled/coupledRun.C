@@ -36,6 +36,11 @@ IOobject propertiesFile(const Time& time) {
   return IOobject("couplingProperties", time.constant(), time, IOobject::MUST_READ, IOobject::NO_WRITE);
 }
 
+/// What the next step needs and a checkpoint has: old time levels and the state of the solver. Nobody looks at them.
+bool ofTheCheckpoint(const word& field) {
+  return field.endsWith("_0") || field == "withheldForce" || field == "driveResponse";
+}
+
 bool readMomentum(const dictionary& properties) {
   const word momentum(properties.getOrDefault<word>("momentum", "semiImplicit"));
   if (momentum != "semiImplicit" && momentum != "explicit")
@@ -101,7 +106,7 @@ void noteUnread(const dictionary& properties) {
 coupledRun::coupledRun(fvMesh& mesh, bool verbose, bool resume)
     : mesh_(mesh), time_(const_cast<Time&>(mesh.time())), properties_(propertiesFile(mesh.time())), verbose_(verbose),
       resume_(resume), traps_(fegetexcept()), semiImplicit_(readMomentum(properties_)),
-      method_(readVoidFraction(properties_)), timeStep_(time_), writer_(time_),
+      method_(readVoidFraction(properties_)), timeStep_(time_), writer_(time_, ofTheCheckpoint),
       interval_(time_.controlDict().get<scalar>("deltaT")) {}
 
 coupledRun::~coupledRun() = default;

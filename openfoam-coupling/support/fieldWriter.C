@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <vector>
 
 namespace Foam {
 
@@ -59,6 +60,36 @@ void removeAll(const std::vector<fs::path>& files, const fs::path& folder) {
   }
 }
 
+/// While it lives, the fields of a registry and of those in it that a name is left out of are not written.
+class heldBack {
+ public:
+  heldBack(const objectRegistry& all, const std::function<bool(const word&)>& leftOut) { add(all, leftOut); }
+  ~heldBack() {
+    for (regIOobject* const object : objects_) {
+      object->writeOpt() = IOobject::AUTO_WRITE;
+    }
+  }
+  heldBack(const heldBack&) = delete;
+  heldBack& operator=(const heldBack&) = delete;
+
+ private:
+  void add(const objectRegistry& registry, const std::function<bool(const word&)>& leftOut) {
+    for (const word& name : registry.names<regIOobject>()) {
+      auto& object = registry.lookupObjectRef<regIOobject>(name);
+      if (const auto* inner = dynamic_cast<const objectRegistry*>(&object)) {
+        if (inner != &registry) { // OpenFOAM's Time is one of its own objects
+          add(*inner, leftOut);
+        }
+      } else if (object.writeOpt() == IOobject::AUTO_WRITE && leftOut(name)) {
+        object.writeOpt() = IOobject::NO_WRITE;
+        objects_.push_back(&object);
+      }
+    }
+  }
+
+  std::vector<regIOobject*> objects_;
+};
+
 } // namespace
 
 // OpenFOAM writes the state of its function objects into the folder of a time after the fields.
@@ -81,6 +112,7 @@ void fieldWriter::attempt() {
   const fs::path folder(std::string(time_.timePath()));
   const Written before = filesIn(folder);
   std::string problem;
+  const heldBack held(time_, leftOut_);
   try {
     if (!time_.writeNow()) {
       problem = "a file could not be written";

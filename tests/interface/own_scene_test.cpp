@@ -6,9 +6,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <regex>
+#include <set>
+#include <sstream>
 
 namespace {
 
@@ -31,6 +34,21 @@ class OwnScene : public testing::Test {
   static double printed(const std::string& output, const std::string& row) {
     std::smatch match;
     return std::regex_search(output, match, std::regex(row + R"( +([-+.\deE]+))")) ? std::stod(match.str(1)) : NAN;
+  }
+
+  static std::vector<std::string> cells_of(const std::string& line) {
+    std::vector<std::string> cells;
+    std::istringstream text(line);
+    for (std::string cell; std::getline(text, cell, ',');)
+      cells.push_back(cell);
+    return cells;
+  }
+
+  static std::set<std::string> names_in(const fs::path& place) {
+    std::set<std::string> names;
+    for (const fs::directory_entry& entry : fs::directory_iterator(place))
+      names.insert(entry.path().filename());
+    return names;
   }
 
   fs::path folder;
@@ -62,6 +80,8 @@ TEST_F(OwnScene, SectionOfClustersRunsAndTakesEachNumberFromOnePlace) {
   const ProgramResult run = in_folder({"mine/run", "--output", "fast", "--rpm", "180", "--ranks", "2"});
   ASSERT_EQ(run.status, 0) << run.output;
   EXPECT_TRUE(fs::is_regular_file(folder / "fast/0.02/U")) << "the run-in takes no times of output from the run";
+  EXPECT_EQ(names_in(folder / "fast/0.02"), (std::set<std::string>{"U", "alpha", "nu", "p", "phi", "uniform"}))
+      << "what a user looks at; the checkpoint has what the next step needs besides";
   EXPECT_NE(contents(folder / "fast/scene").find("rpm               180;"), std::string::npos);
   EXPECT_NE(contents(folder / "mine/scene").find("rpm               120;"), std::string::npos)
       << "the case itself stays";
@@ -141,6 +161,74 @@ TEST_F(OwnScene, DrumCarriesItsFillingUp) {
   ASSERT_EQ(report.status, 0) << report.output;
   const double grains = printed(contents(folder / "r/scene"), "count");
   EXPECT_NEAR(printed(report.output, "bodies"), grains, 0) << "periodic and closed: none is lost";
+}
+
+// The options of `new` are those of `run`, with their units; a shape's file comes from where the user is.
+TEST_F(OwnScene, RunTakesTheOptionsOfNew) {
+  constexpr double kInch = 0.0254, kGallon = 3.785411784e-3, kPi = 3.14159265358979;
+  ASSERT_EQ(eccentra({"new", "well", "w", "--length", "0.1", "--cells", "6 24 4", "--seconds", "0.01"}).status, 0);
+  const ProgramResult run = in_folder(
+      {"w/run",       "--output",    "r",        "--run-in", "1",      "--flow",          "300gpm",   "--hole",
+       "9in",         "--pipe",      "4.5in",    "--rate",   "60ft/h", "--density",       "9ppg",     "--tau0",
+       "2lbf/100ft2", "--rpm",       "20",       "--report", "1",      "--void-fraction", "gaussian", "--momentum",
+       "explicit",    "--viscosity", "capped 60"});
+  ASSERT_EQ(run.status, 0) << run.output;
+  const std::string scene = contents(folder / "r/scene");
+  const double area = kPi / 4 * (std::pow(9 * kInch, 2) - std::pow(4.5 * kInch, 2));
+  EXPECT_NEAR(printed(scene, "velocity"), 300 * kGallon / 60 / area, 1e-6);
+  EXPECT_NEAR(printed(scene, "holeRadius"), 4.5 * kInch, 1e-9);
+  EXPECT_NEAR(printed(scene, "pipeRadius"), 2.25 * kInch, 1e-9);
+  EXPECT_NEAR(printed(scene, "rate"), 2619 * kPi * std::pow(4.5 * kInch, 2) * 60 * 0.3048 / 3600, 1e-6);
+  EXPECT_NEAR(printed(scene, "mudDensity"), 9 * 0.45359237 / kGallon, 1e-5);
+  EXPECT_NEAR(printed(scene, "tau0"), 2 * 0.4788026, 1e-5);
+  EXPECT_NE(contents(folder / "r/constant/couplingProperties").find("gaussian"), std::string::npos);
+  EXPECT_NEAR(printed(contents(folder / "r/constant/transportProperties"), "muY"), 60, 0);
+
+  ASSERT_EQ(eccentra({"new", "drum", "d", "--drum", "80mm", "--length", "25mm", "--fill", "0.1"}).status, 0);
+  write_file(folder / "pear.csv", "x,y,z,r\n0,0,0,2\n2,0,0,1.5\n");
+  const ProgramResult turned = in_folder({"d/run", "--output", "t", "--shape", "file pear.csv", "--drum", "90mm",
+                                          "--filling", "0.05", "--seconds", "0.01"});
+  ASSERT_EQ(turned.status, 0) << turned.output;
+  EXPECT_NEAR(printed(contents(folder / "t/scene"), "drumRadius"), 0.045, 1e-9);
+  EXPECT_TRUE(fs::is_regular_file(folder / "t/pear.csv"));
+
+  for (const auto& [word, value, said] :
+       {std::array{"--drum", "90furlong", "'90furlong'"}, std::array{"--hole", "9in", "--hole is not an option"},
+        std::array{"--diameter", "-1mm", "'-1mm' is not above 0"}}) {
+    const ProgramResult refused = in_folder({"d/run", "--output", "x", word, value});
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_EQ(std::count(refused.output.begin(), refused.output.end(), '\n'), 1) << refused.output;
+    EXPECT_NE(refused.output.find(said), std::string::npos) << refused.output;
+  }
+  EXPECT_FALSE(fs::exists(folder / "x"));
+}
+
+// A mesh of snappyHexMesh and the walls of the DEM from the same STL file.
+TEST_F(OwnScene, HopperOnAMeshOfSnappyHexMeshLetsItsGrainsOut) {
+  const std::string hopper = required_environment("ECCENTRA_SOURCE") + "/cases/hopper";
+  const ProgramResult run =
+      in_folder({hopper + "/run", "--output", "r", "--count", "100", "--settling", "0.15", "--seconds", "0.4",
+                 "--velocity", "0.03", "--fluid_step", "0.002", "--interval", "80"});
+  ASSERT_EQ(run.status, 0) << run.output;
+  EXPECT_TRUE(fs::is_regular_file(folder / "r/log.snappyHexMesh"));
+  std::istringstream table(contents(folder / "r/postProcessing/eccentra/coupling.csv"));
+  std::string line, last;
+  std::getline(table, line);
+  const std::vector<std::string> names = cells_of(line);
+  while (std::getline(table, line))
+    last = line;
+  const std::vector<std::string> values = cells_of(last);
+  const auto value = [&](const std::string& name) {
+    const auto at = std::find(names.begin(), names.end(), name);
+    return at == names.end() ? NAN : std::stod(values.at(static_cast<std::size_t>(at - names.begin())));
+  };
+  // The spout is six grains wide: it does not clog, and no grain goes through the wall.
+  EXPECT_GT(value("left"), 10);
+  EXPECT_EQ(value("particles") + value("left"), 100);
+  EXPECT_LT(std::abs(value("volume_error")), 1e-10);
+  const ProgramResult report = eccentra({"report", "r", "-o", "report"});
+  ASSERT_EQ(report.status, 0) << report.output;
+  EXPECT_GT(fs::file_size(folder / "report/scene.png"), 10000U);
 }
 
 TEST_F(OwnScene, EachWrongWordIsOneSentence) {
