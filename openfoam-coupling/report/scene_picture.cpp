@@ -107,7 +107,7 @@ void add_bodies_to(Column& column) {
   if (vtkDataArray* radii = bodies.GetPointData()->GetArray("radius"))
     largest = radii->GetRange()[1];
   constexpr double outside = 0.03; // of all, on each side
-  constexpr double far = 0.8;      // of the width of the others, from their side
+  constexpr double far = 0.4;      // of the width of the others, from their side
   const auto skipped = static_cast<std::ptrdiff_t>(outside * static_cast<double>(count));
   std::array<double, 6> sides{};
   for (std::size_t d = 0; d < 3; ++d) {
@@ -360,8 +360,13 @@ void share_bounds(std::vector<Column>& columns) {
     choose_sight(column);
 }
 
-/// The columns beside each other.
-void draw_columns(const std::vector<Column>& columns, const Colours& colours, const std::filesystem::path& file) {
+bool any_flow(const std::vector<Column>& columns) {
+  return std::any_of(columns.begin(), columns.end(), [](const Column& column) { return column.flow != nullptr; });
+}
+
+/// The columns beside each other; `fluid`: with a scale of colour for it.
+void draw_columns(const std::vector<Column>& columns, const Colours& colours, bool fluid,
+                  const std::filesystem::path& file) {
   double height = kSmallest;
   std::vector<double> scales; // pixels per metre
   for (const Column& column : columns) {
@@ -374,9 +379,6 @@ void draw_columns(const std::vector<Column>& columns, const Colours& colours, co
     widths.push_back(std::max(kSmallest, 2 * columns[i].half_width * scales[i]));
     width += widths.back();
   }
-  bool fluid = false;
-  for (const Column& column : columns)
-    fluid = fluid || column.flow != nullptr;
   const double least_width = fluid ? 1000 : 640; // room for the numbers of the scales of colour
   const double stretch = std::max(1.0, least_width / width);
   for (double& w : widths)
@@ -478,7 +480,7 @@ void draw_views(const std::vector<View>& views, const std::filesystem::path& fil
   for (const View& view : views)
     columns.push_back(column_of(view));
   share_bounds(columns);
-  draw_columns(columns, colours_of(columns), file);
+  draw_columns(columns, colours_of(columns), any_flow(columns), file);
 }
 
 void draw_film(const std::vector<View>& views, const std::filesystem::path& file) {
@@ -492,6 +494,7 @@ void draw_film(const std::vector<View>& views, const std::filesystem::path& file
   const Colours colours = colours_of(sampled);
   const Bounds bounds = sampled.front().bounds;
   const std::array<double, 6> seen = sampled.front().seen;
+  const bool fluid = any_flow(sampled); // a film has pictures of one size, also from before the flow
   sampled.clear();
   std::vector<std::filesystem::path> pictures;
   for (const View& view : views) {
@@ -500,7 +503,7 @@ void draw_film(const std::vector<View>& views, const std::filesystem::path& file
     column.seen = seen;
     choose_sight(column);
     pictures.push_back(file.string() + "." + std::to_string(pictures.size()));
-    draw_columns({column}, colours, pictures.back());
+    draw_columns({column}, colours, fluid, pictures.back());
   }
   constexpr double tenth = 0.1;
   write_film(pictures, tenth, file);

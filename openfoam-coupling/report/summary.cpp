@@ -56,6 +56,13 @@ std::string cell(const Quantity& q) {
              : value;
 }
 
+bool always_zero(const Table& table, const char* column) {
+  if (!table.has(column))
+    return false;
+  const std::vector<double>& values = table.columns.at(column);
+  return std::all_of(values.begin(), values.end(), [](double value) { return value == 0; });
+}
+
 /// What the bodies of any scene are doing, as means over the files of the last part of the run.
 void add_bodies(Summary& summary, const Case& data, double share) {
   const Vector& g = data.dem.gravity;
@@ -158,8 +165,10 @@ Summary summarise(const Case& data, double share, std::size_t layers) {
         values.push_back(all[i]);
     return values;
   };
+  // A hole or column that stands has no low side on which solid could lie: the solver's heights over it are 0.
+  const bool stands = always_zero(data.run, "com_height") && always_zero(data.run, "bed_height");
   for (const Column& c : columns)
-    if (data.run.has(c.column))
+    if (data.run.has(c.column) && !(stands && c.unit == std::string("mm")))
       summary.quantities.push_back({c.name, c.unit, mean_of(late(data.run.columns.at(c.column))), c.scale});
 
   // From the particles themselves, over the snapshots of the same part of the run.

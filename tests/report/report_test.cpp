@@ -166,14 +166,15 @@ std::vector<bool> coloured_columns(const fs::path& file, double top) {
   return columns;
 }
 
-// A row of 60 spheres at rest and one that has rolled away: the row is whole in the picture, which it fills.
+// A row of spheres at rest, of which the outermost stand a little apart, and one that may have rolled away: the row is
+// whole in the picture, which it fills.
 TEST(Report, CutsNoBodyAtTheSideOfThePicture) {
   for (const bool rolled : {false, true}) {
     const fs::path folder = fresh_folder("row");
     std::ostringstream points, radii, still;
     points << "# vtk DataFile Version 2.0\nrow\nASCII\nDATASET POLYDATA\nPOINTS 61 float\n";
     for (int i = 0; i < 61; ++i) {
-      points << (i < 60 ? 0.01 * i : rolled ? 5 : 0.6) << " 0 0.005\n";
+      points << (i == 0 ? 0.19 : i < 60 ? 0.2 + 0.2 * i / 59 : rolled ? 5 : 0.41) << " 0 0.005\n";
       radii << "0.005\n";
       still << "0 0 0\n";
     }
