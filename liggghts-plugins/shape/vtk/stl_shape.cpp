@@ -23,14 +23,18 @@
 namespace eccentra::shape {
 namespace {
 
-const std::vector<ShapeOption> kOptions = {
-    {"spheres", "stop at this number of spheres, 1 to 4096"},
-    {"error", "stop where this part of the volume is still missing, e.g. 0.05"},
-    {"resolution", "grid points along the longest side, 8 to 400; default 48, or more for thin solids"},
-    {"scale", "multiply the lengths of a file, e.g. 1e-3 for millimetres"},
-    {"mass", "mass, centre and inertia of: union (the spheres; default) or solid"},
-    {"cover", "inside (default), or balanced: spheres grow until their union has the volume of the solid"},
-    {"missing", "part of the volume that spheres may lack before they are refused; default 0.5"}};
+/// Made at the first call: libeccentra installs the family while it is loaded.
+const std::vector<ShapeOption>& stl_options() {
+  static const std::vector<ShapeOption> options = {
+      {"spheres", "stop at this number of spheres, 1 to 4096"},
+      {"error", "stop where this part of the volume is still missing, e.g. 0.05"},
+      {"resolution", "grid points along the longest side, 8 to 400; default 48, or more for thin solids"},
+      {"scale", "multiply the lengths of a file, e.g. 1e-3 for millimetres"},
+      {"mass", "mass, centre and inertia of: union (the spheres; default) or solid"},
+      {"cover", "inside (default), or balanced: spheres grow until their union has the volume of the solid"},
+      {"missing", "part of the volume that spheres may lack before they are refused; default 0.5"}};
+  return options;
+}
 constexpr int kMaxSpheres = 4096, kMinResolution = 8, kMaxResolution = 400;
 /// Missing part of the volume that a note remarks upon.
 constexpr double kMuchMissing = 0.2;
@@ -96,7 +100,7 @@ StlRequest read_stl_request(base::OptionReader& words) {
   request.path = words.value("the name of an STL file");
   std::set<std::string> given;
   const auto is_option = [](const std::string& word) {
-    return std::any_of(kOptions.begin(), kOptions.end(),
+    return std::any_of(stl_options().begin(), stl_options().end(),
                        [&](const ShapeOption& option) { return option.name == word; });
   };
   while (words.more() && is_option(words.peek())) {
@@ -231,7 +235,7 @@ FitQuality fit_quality(const Solid& solid, const SolidEccentricity& own, const s
 void install_stl_keywords() {
   ShapeFamily family{"stl", "stl NAME.stl spheres N|error E", true, make};
   family.extensions = ".stl";
-  family.options = kOptions;
+  family.options = stl_options();
   add_shape_family(family);
 }
 
