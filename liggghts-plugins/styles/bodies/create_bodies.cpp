@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Command create_bodies: clusters at the places and in the orientations of a list.
+#include "base/option_reader.h"
+#include "base/refusal.h"
 #include "shape/body_list.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/bodies/fix_particletemplate_cluster.h"
@@ -20,7 +22,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
+#include <cstdlib>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -91,29 +93,29 @@ class PlaceGrid {
 
 class CreateBodies {
  public:
-  CreateBodies(LAMMPS* lmp, int narg, char** arg) : lmp_(*lmp) {
+  CreateBodies(LAMMPS* lmp, const std::vector<std::string>& arguments) : lmp_(*lmp) {
     if (!lmp->domain->box_exist)
-      refuse("there is no simulation box yet; expected create_box before");
+      base::refuse("there is no simulation box yet; expected create_box before");
     if (lmp->modify->nfix_restart_peratom)
-      refuse("a restart file has just been read, whose atoms are not complete before the next run; expected `run 0` "
-             "before");
+      base::refuse("a restart file has just been read, whose atoms are not complete before the next run; expected `run "
+                   "0` before");
     if (lmp->domain->triclinic)
-      refuse("the box is tilted; expected a box with right angles");
-    if (narg < 3 || std::strcmp(arg[1], "template") != 0)
-      refuse("needs a file and a template; expected create_bodies FILE template ID [overlap refuse|allow]");
-    file_ = arg[0];
-    const int f = lmp->modify->find_fix(arg[2]);
+      base::refuse("the box is tilted; expected a box with right angles");
+    base::OptionReader reader(arguments);
+    file_ = reader.keyword("FILE template ID [overlap refuse|allow]");
+    if (const std::string& word = reader.value("template ID, that of a fix particletemplate/cluster");
+        word != "template")
+      base::refuse("'{}' is not 'template'; expected create_bodies FILE template ID [overlap refuse|allow]", word);
+    const std::string& id = reader.value("the id of a fix particletemplate/cluster");
+    const int f = lmp->modify->find_fix(id.c_str());
     template_ = f < 0 ? nullptr : dynamic_cast<FixParticletemplateCluster*>(lmp->modify->fix[f]);
     if (!template_)
-      refuse("template '" + std::string(arg[2]) + "' is not a fix particletemplate/cluster; expected the id of one");
+      base::refuse("template '{}' is not a fix particletemplate/cluster; expected the id of one", id);
     bool allow = false;
-    for (int n = 3; n < narg; n += 2) {
-      const std::string word = arg[n], value = n + 1 < narg ? arg[n + 1] : "";
-      if (word != "overlap")
-        refuse("unknown word '" + word + "'; expected overlap refuse|allow");
-      if (value != "refuse" && value != "allow")
-        refuse("overlap '" + value + "' is not a choice; expected refuse or allow");
-      allow = value == "allow";
+    while (reader.more()) {
+      if (reader.keyword() != "overlap")
+        reader.unknown("overlap refuse, overlap allow");
+      allow = reader.choice({"refuse", "allow"}) == "allow";
     }
     read();
     for (std::size_t n = 0; n < listed_.size(); ++n)
@@ -125,18 +127,12 @@ class CreateBodies {
   }
 
  private:
-  void refuse(const std::string& sentence) { lmp_.error->all(FLERR, ("create_bodies: " + sentence).c_str()); }
-
   void read() {
     const std::optional<std::string> text = shared_text(lmp_, file_);
     if (!text)
-      refuse("file '" + file_ + "' cannot be read or is empty; expected a list of bodies, one a line");
+      base::refuse("file '{}' cannot be read or is empty; expected a list of bodies, one a line", file_);
     std::istringstream in(*text);
-    try {
-      listed_ = shape::read_body_list(in, file_);
-    } catch (const std::invalid_argument& problem) {
-      refuse(problem.what());
-    }
+    listed_ = shape::read_body_list(in, file_);
   }
 
   std::string where(const shape::ListedBody& body) const { return file_ + ":" + std::to_string(body.line); }
@@ -147,8 +143,8 @@ class CreateBodies {
       domain.remap(body.place);
       for (int k = 0; k < 3; ++k)
         if (body.place[k] < domain.boxlo[k] || body.place[k] >= domain.boxhi[k])
-          refuse(where(body) + ": the centre (" + std::to_string(body.place[0]) + " " + std::to_string(body.place[1]) +
-                 " " + std::to_string(body.place[2]) + ") lies outside of the simulation box; expected a place in it");
+          base::refuse("{}: the centre ({:f} {:f} {:f}) lies outside of the simulation box; expected a place in it",
+                       where(body), body.place[0], body.place[1], body.place[2]);
     }
   }
 
@@ -203,10 +199,10 @@ class CreateBodies {
     MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, lmp_.world);
     MPI_Bcast(who, 2, MPI_INT, worst.rank, lmp_.world);
     if (worst.depth > kWorthAWord)
-      refuse(where(listed_[who[0]]) + " and " +
-             (who[1] > 0 ? "line " + std::to_string(who[1]) : "body " + std::to_string(-who[1])) + " overlap by " +
-             std::to_string(static_cast<int>(100 * worst.depth)) +
-             " % of the radius of the smaller sphere; expected places that are free, or the words `overlap allow`");
+      base::refuse(
+          "{} and {} {} overlap by {} % of the radius of the smaller sphere; expected places that are free, or "
+          "the words `overlap allow`",
+          where(listed_[who[0]]), who[1] > 0 ? "line" : "body", std::abs(who[1]), static_cast<int>(100 * worst.depth));
   }
 
   void create() {
@@ -242,8 +238,9 @@ class CreateBodies {
     }
     const auto created = static_cast<long>(atom.natoms - before);
     if (created != static_cast<long>(listed_.size()))
-      refuse("only " + std::to_string(created) + " of the " + std::to_string(listed_.size()) + " bodies of " + file_ +
-             " lie in the part of a rank; expected places off the borders between ranks");
+      base::refuse("only {} of the {} bodies of {} lie in the part of a rank; expected places off the borders between "
+                   "ranks",
+                   created, listed_.size(), file_);
     if (lmp_.comm->me == 0)
       for (FILE* to : {lmp_.screen, lmp_.logfile})
         if (to)
@@ -257,8 +254,16 @@ class CreateBodies {
   std::vector<int> shape_ids_; ///< of the listed bodies
 };
 
+void create_bodies(LAMMPS* lmp, int narg, char** arg) {
+  try {
+    CreateBodies(lmp, {arg, arg + narg});
+  } catch (const std::invalid_argument& problem) {
+    lmp->error->all(FLERR, ("create_bodies: " + std::string(problem.what())).c_str());
+  }
+}
+
 const RegisterCommand registered("create_bodies", "clusters at the places and in the orientations of a list",
-                                 [](LAMMPS* lmp, int narg, char** arg) { CreateBodies(lmp, narg, arg); });
+                                 create_bodies);
 
 } // namespace
 

@@ -11,11 +11,14 @@
 
 #include "fix_template_sphere.h"
 
-#include <functional>
-#include <list>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+namespace eccentra::base {
+class OptionReader;
+}
 
 namespace eccentra::styles {
 
@@ -28,31 +31,45 @@ struct DensityDistribution {
   enum class Kind { constant, uniform, gaussian, lognormal } kind = Kind::constant;
   double middle = 0; ///< the mean; lognormal: the median
   double width = 0;  ///< uniform: half the range; gaussian: the standard deviation; lognormal: that of the logarithm
+  static constexpr double kCut = 3; ///< deviations at which bells are cut off
   double mean() const;
-  double draw(LAMMPS_NS::RanPark& random) const; ///< bells are cut off at three deviations
+  double draw(LAMMPS_NS::RanPark& random) const;
 };
 
 /// The arguments of the command: those of stock templates, and ours.
 struct TemplateArguments {
-  TemplateArguments(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
-  std::vector<char*> stock;                ///< what FixTemplateSphere reads
+  /// All arguments from the id of the fix on. Throws std::invalid_argument.
+  explicit TemplateArguments(const std::vector<std::string>& arguments);
+  /// Sets the sizes that the text of the file `sieve` states. Throws std::invalid_argument, also without a text.
+  void read_sieve(const std::optional<std::string>& text);
+
+  std::vector<std::string> stock;          ///< what FixTemplateSphere reads
   std::vector<std::string> shape_keywords; ///< as make_shape takes them
   double diameter = 0;                     ///< of the sphere of equal volume [m]; 0: as the file says
+  std::string sieve;                       ///< file that states the sizes; empty: none
   std::vector<shape::SizeClass> sizes;     ///< with a distribution of diameters; else empty
   DensityDistribution density;
   TemplateOrientation orientation = TemplateOrientation::as_inserted;
 
  private:
-  using Refuse = std::function<void(const std::string&)>;
-  int read_density(int narg, char** arg, int at, const Refuse& refuse);
-  int read_diameter(LAMMPS_NS::LAMMPS& lmp, int narg, char** arg, int at, const Refuse& refuse);
-  std::list<std::string> own_; ///< arguments of `stock` that the user did not type
+  void read_diameter(base::OptionReader& reader);
+  void set_sizes(std::vector<shape::SizeClass> classes);
+};
+
+/// Bodies of one size.
+struct TemplateSize {
+  std::unique_ptr<shape::ClusterShape> shape; ///< until the table takes it
+  double below;                               ///< part of the number that is of this or of a smaller size
+  double volume;                              ///< [m3]
+  double bounding_radius;                     ///< [m]
+  int shape_id;                               ///< in the table; -1 before
 };
 
 /// Fix style "particletemplate/cluster".
 class FixParticletemplateCluster : public LAMMPS_NS::FixTemplateSphere {
  public:
-  FixParticletemplateCluster(LAMMPS_NS::LAMMPS* lmp, const TemplateArguments& arguments);
+  FixParticletemplateCluster(LAMMPS_NS::LAMMPS* lmp, const TemplateArguments& arguments,
+                             std::vector<TemplateSize> sizes);
   ~FixParticletemplateCluster() override;
 
   // The table of shapes is a fix, and fixes cannot be made while another one is under construction.
@@ -71,19 +88,10 @@ class FixParticletemplateCluster : public LAMMPS_NS::FixTemplateSphere {
   TemplateOrientation orientation() const { return orientation_; }
 
  private:
-  /// Bodies of one size.
-  struct Size {
-    std::unique_ptr<shape::ClusterShape> shape; ///< until the table takes it
-    double below;                               ///< part of the number that is of this or of a smaller size
-    double volume;
-    double bounding_radius;
-    int shape_id;
-  };
-  void make_sizes(const TemplateArguments& arguments, shape::Notes& notes);
-  const Size& size_of(LAMMPS_NS::RanPark& random) const;
+  const TemplateSize& size_of(LAMMPS_NS::RanPark& random) const;
   void fill(LAMMPS_NS::ParticleToInsert& particle);
 
-  std::vector<Size> sizes_;
+  std::vector<TemplateSize> sizes_;
   double largest_ = 0;
   DensityDistribution density_;
   TemplateOrientation orientation_;
