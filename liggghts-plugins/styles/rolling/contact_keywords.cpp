@@ -6,7 +6,12 @@
 #include "base/option_reader.h"
 #include "styles/entry/private_access.h"
 
+#include "input.h"
+#include "lammps.h"
+
 #include <cstdio>
+#include <functional>
+#include <map>
 #include <stdexcept>
 
 namespace eccentra::styles {
@@ -75,30 +80,49 @@ class SwitchSetting : public Setting {
   bool& target_;
 };
 
+/// Reads the words of any family of shapes: they end where a keyword of the model begins, or the line of the script.
 class ShapeSetting : public Setting {
  public:
-  explicit ShapeSetting(std::vector<std::string>& target) : Setting("shape", 2), target_(target) {}
+  ShapeSetting(const LAMMPS_NS::LAMMPS& lmp, const std::map<std::string, Setting*>& keywords, const std::string& model,
+               std::vector<std::string>& target)
+      : Setting("shape", 2), lmp_(lmp), keywords_(keywords), model_(model), target_(target) {}
 
   int parseArguments(char** args) override {
     if (name != args[0])
       return 0;
-    const int arguments = std::string(args[1]) == "stl" ? 4 : 2;
-    target_.assign(args + 1, args + 1 + arguments);
-    return 1 + arguments;
+    // Settings does not say where the arguments end; they are those of the present line of the script.
+    char** const end = lmp_.input->arg + lmp_.input->narg;
+    if (!std::less<>()(args, end) || std::less<>()(args, lmp_.input->arg)) {
+      error_message = model_ + ": 'shape' does not come from the line of a script; expected pair_style in a script";
+      return -1;
+    }
+    target_.clear();
+    for (char** arg = args + 1; arg < end && !keywords_.count(*arg); ++arg)
+      target_.emplace_back(*arg);
+    if (target_.empty()) {
+      error_message = model_ + ": nothing follows 'shape'; expected a shape, such as cube 64 or file NAME.clump";
+      return -1;
+    }
+    return 1 + static_cast<int>(target_.size());
   }
 
   void print_value(FILE* out) override { std::fprintf(out, "%s", target_.empty() ? "none" : target_.front().c_str()); }
 
  private:
+  const LAMMPS_NS::LAMMPS& lmp_;
+  const std::map<std::string, Setting*>& keywords_;
+  std::string model_;
   std::vector<std::string>& target_;
 };
 
 } // namespace
 
-void register_shape_keywords(Settings& settings, std::vector<std::string>& target) {
-  Setting*& entry = (settings.*Published<SettingsList>::pointer)["shape"];
+void register_shape_keywords(const LAMMPS_NS::LAMMPS& lmp, Settings& settings, const std::string& model,
+                             std::vector<std::string>& target) {
+  std::map<std::string, Setting*>& keywords = settings.*Published<SettingsList>::pointer;
+  Setting*& entry = keywords["shape"];
   if (!entry)
-    entry = new ShapeSetting(target);
+    entry = new ShapeSetting(lmp, keywords, model, target);
 }
 
 void register_option(Settings& settings, const std::string& model, const std::string& name, int& target,

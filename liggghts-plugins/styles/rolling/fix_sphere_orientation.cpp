@@ -3,6 +3,7 @@
 // Turns orientations with the exact rotation of a constant spin over the step.
 #include "styles/rolling/fix_sphere_orientation.h"
 
+#include "base/refusal.h"
 #include "shape/shape_keywords.h"
 #include "styles/entry/printed_notes.h"
 #include "styles/entry/style_registry.h"
@@ -73,6 +74,9 @@ FixSphereOrientation* FixSphereOrientation::make(LAMMPS_NS::LAMMPS* lmp, const s
     std::size_t used = 0;
     shape::Notes notes;
     const shape::ClusterShape body = shape::make_shape(shape_keywords, 0, used, kUnitDiameter, notes);
+    if (used != shape_keywords.size())
+      base::refuse("unknown word '{}' after the shape '{}'; expected rockingDamping or orientationSeed",
+                   shape_keywords[used], body.name());
     print_notes(lmp, "rolling_friction eccentric", notes);
     fix->shape_ = std::make_unique<contact::SupportTable>(body);
   } catch (const std::invalid_argument& problem) {

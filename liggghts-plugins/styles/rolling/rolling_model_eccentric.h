@@ -30,7 +30,7 @@ template <> class RollingModel<ROLLING_ECCENTRIC> : public RollingModelBase {
       : RollingModelBase(lmp, history, contact_model), is_wall_(contact_model->is_wall()), wall_spin_(history) {}
 
   void registerSettings(Settings& settings) {
-    eccentra::styles::register_shape_keywords(settings, shape_keywords_);
+    eccentra::styles::register_shape_keywords(*lmp, settings, "rolling_friction eccentric", shape_keywords_);
     eccentra::styles::register_switch(settings, "rolling_friction eccentric", "rockingDamping", damped_);
     settings.registerDoubleSetting("orientationSeed", seed_, 1.0);
   }

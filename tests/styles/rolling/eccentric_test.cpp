@@ -12,7 +12,10 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
 #include <random>
+#include <sstream>
+#include <tuple>
 
 using namespace eccentra::test;
 using eccentra::contact::SupportTable;
@@ -24,10 +27,10 @@ SupportTable table_of(const std::string& word, const std::string& value) {
   return SupportTable(eccentra::shape::make_shape({word, value}, 0, used, 2.0));
 }
 
-RollingScene eccentric_scene(const std::string& arguments) {
+RollingScene eccentric_scene(const std::string& arguments, const std::string& shape = "cube 64") {
   RollingScene scene;
   scene.model = "eccentric";
-  scene.arguments = "shape cube 64 " + arguments;
+  scene.arguments = "shape " + shape + " " + arguments;
   scene.walls = "";
   return scene;
 }
@@ -180,26 +183,37 @@ TEST(SupportTable, LeverIsTheSlopeOfTheReach) {
   }
 }
 
-// A face of C64 holds while the lever of its corner spheres, 0.3 L, resists the friction that rolls the sphere: tan =
-// 0.3 L / R.
+// A face holds while the lever of its corners resists the friction that rolls the sphere: tan = lever / R. Of C64 it is
+// 0.713 R over a corner, over an edge 1/sqrt(2) of it. A cube with rounded edges of radius r has it at half the edge L
+// of its core, and R from the volume of the core and of what lies within r of it (Steiner's formula). The words of the
+// shape, two or four, end at the keyword behind them.
 TEST(Eccentric, StandsOnAFaceUpToItsLever) {
-  const SupportTable cube = table_of("cube", "64");
-  const Eigen::Vector3d corner = cube.arm(Eigen::Vector3d(1, 0.01, 0.001).normalized(), 0);
-  const double critical = std::atan(std::abs(corner[1]));
-  constexpr double largest_lever = 0.713; // of C64 on a plane, over a corner; over an edge 1/sqrt(2) of it
-  EXPECT_NEAR(std::tan(critical), largest_lever / std::sqrt(2.0), 2e-3);
-  for (const double angle : {critical - 0.02, critical + 0.02}) {
-    RollingScene slope = eccentric_scene("");
-    slope.gravity = {std::sin(angle), 0, -std::cos(angle)};
-    LiggghtsSession session;
-    place(session, slope, "");
-    run(session, 50000);
-    const double moved = sphere(session, 1).x[0];
-    if (angle < critical) {
-      EXPECT_LT(std::abs(moved), 0.05 * kRadius);
-      EXPECT_LT(sphere(session, 1).v.norm(), 1e-6);
-    } else {
-      EXPECT_GT(moved, kRadius);
+  constexpr double r = 0.2, l = 2 * (1 - r);
+  const double volume = l * l * l + 6 * l * l * r + 3 * kPi * l * r * r + 4 * kPi / 3 * r * r * r;
+  for (const auto& [shape, lever, tolerance] :
+       {std::tuple{std::string("cube 64"), 0.713 / std::sqrt(2.0), 2e-3},
+        {"smooth cube rounding 0.2", l / 2 / std::cbrt(3 * volume / (4 * kPi)), 1e-6}}) {
+    std::istringstream text(shape);
+    const std::vector<std::string> words{std::istream_iterator<std::string>(text), {}};
+    std::size_t used = 0;
+    const SupportTable cube(eccentra::shape::make_shape(words, 0, used, 2.0));
+    const Eigen::Vector3d corner = cube.arm(Eigen::Vector3d(1, 0.01, 0.001).normalized(), 0);
+    const double critical = std::atan(std::abs(corner[1]));
+    EXPECT_NEAR(std::tan(critical), lever, tolerance);
+    for (const double angle : {critical - 0.02, critical + 0.02}) {
+      RollingScene slope = eccentric_scene("orientationSeed 3", shape);
+      slope.mu_s = 1; // it rolls and does not slide
+      slope.gravity = {std::sin(angle), 0, -std::cos(angle)};
+      LiggghtsSession session;
+      place(session, slope, "");
+      run(session, 50000);
+      const double moved = sphere(session, 1).x[0];
+      if (angle < critical) {
+        EXPECT_LT(std::abs(moved), 0.05 * kRadius) << shape;
+        EXPECT_LT(sphere(session, 1).v.norm(), 1e-6) << shape;
+      } else {
+        EXPECT_GT(moved, kRadius) << shape;
+      }
     }
   }
 }
