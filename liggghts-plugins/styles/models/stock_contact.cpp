@@ -10,6 +10,7 @@
 
 #include "atom.h"
 #include "contact_models.h"
+#include "error.h"
 #include "fix_property_atom.h"
 #include "force.h"
 #include "global_properties.h"
@@ -146,6 +147,15 @@ auto created(const Map& models, const char* kind, const std::string& name, LAMMP
 
 } // namespace
 
+/// A contact whose normal force is there.
+struct StockContact::Begun {
+  stock::SurfacesIntersectData data{};
+  stock::ForceData on_a, on_b;
+  double elastic = 0;        ///< normal force without its damper [N]
+  double adhesion = 0;       ///< what cohesion adds to it [N]
+  std::vector<double> still; ///< history that does not move on
+};
+
 struct StockContact::Models {
   Models(LAMMPS* lmp, bool wall) : around(lmp, wall) {}
 
@@ -156,12 +166,12 @@ struct StockContact::Models {
   std::unique_ptr<stock::CohesionModelBase> cohesion;
   std::unique_ptr<stock::TangentialModelBase> tangential;
   std::unique_ptr<stock::RollingModelBase> rolling;
-  stock::SurfacesIntersectData data{};
-  stock::ForceData on_a, on_b;
+  std::vector<Begun> begun = std::vector<Begun>(1);
+  Begun aside; ///< for stiffness alone
   std::vector<double> scratch;
   std::vector<double*> rows; ///< of VelocitiesOfSides
   int flags = 0;
-  LAMMPS_NS::FixPropertyAtom* liquid_flux = nullptr; ///< of a model of liquid bridges
+  LAMMPS_NS::FixPropertyAtom *liquid_flux = nullptr, *liquid = nullptr; ///< of a model of liquid bridges
 
   /// Calls visit for each model in LIGGGHTS's own order.
   template <class Visit> void each(Visit visit) {
@@ -207,6 +217,8 @@ void StockContact::choose(const StockModelNames& names, const std::vector<std::s
   m.rolling = created(rolling_models(), "rolling_friction", names.rolling, lmp_, &m.history, &m.around);
   Settings settings(lmp_);
   m.each([&](auto& model) { model.registerSettings(settings); });
+  for (std::size_t k = 0; k + 1 < options.size(); k += 2)
+    viscous_ = viscous_ || (options[k] == "viscous" && base::switch_value(options[k + 1]).value_or(false));
   std::vector<std::string> words = options;
   std::vector<char*> arg;
   for (std::string& word : words)
@@ -237,9 +249,19 @@ void StockContact::connect() {
     registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
     registry.connect("coeffFrict", friction_, "gran/cluster");
   }
-  if (reach_ > 1)
-    m.liquid_flux = static_cast<LAMMPS_NS::FixPropertyAtom*>(
-        lmp_->modify->find_fix_property("liquidFlux", "property/atom", "scalar", 0, 0, "gran/cluster", false));
+  const auto liquid_property = [this](const char* name) {
+    return static_cast<LAMMPS_NS::FixPropertyAtom*>(
+        lmp_->modify->find_fix_property(name, "property/atom", "scalar", 0, 0, "gran/cluster", false));
+  };
+  if (reach_ > 1) {
+    m.liquid_flux = liquid_property("liquidFlux");
+    m.liquid = liquid_property("surfaceLiquidContent");
+  }
+}
+
+void StockContact::begin_step() {
+  if (models_->liquid)
+    models_->liquid->do_forward_comm();
 }
 
 double StockContact::exponent() const {
@@ -281,26 +303,65 @@ void fill(stock::SurfacesIntersectData& data, StockSubContact& c, bool wall) {
 
 void StockContact::stiffness(StockSubContact& c) {
   Models& m = *models_;
-  fill(m.data, c, wall_);
+  Begun& at = m.aside;
+  fill(at.data, c, wall_);
   std::copy_n(c.history, m.history.size, m.scratch.data());
-  m.data.contact_history = m.scratch.data();
-  m.data.contact_flags = &m.flags;
-  m.data.shearupdate = 0;
-  m.on_a.reset();
-  m.on_b.reset();
-  m.data.kn = m.data.kt = m.data.gamman = m.data.gammat = 0;
-  m.surface->surfacesIntersect(m.data, m.on_a, m.on_b);
-  m.normal->surfacesIntersect(m.data, m.on_a, m.on_b);
-  c.kn = m.data.kn;
-  c.kt = m.data.kt;
-  c.gamma_n = m.data.gamman;
-  c.gamma_t = m.data.gammat;
+  at.data.contact_history = m.scratch.data();
+  at.data.contact_flags = &m.flags;
+  at.data.shearupdate = 0;
+  at.on_a.reset();
+  at.on_b.reset();
+  at.data.kn = at.data.kt = at.data.gamman = at.data.gammat = 0;
+  m.surface->surfacesIntersect(at.data, at.on_a, at.on_b);
+  m.normal->surfacesIntersect(at.data, at.on_a, at.on_b);
+  c.kn = at.data.kn;
+  c.kt = at.data.kt;
+  c.gamma_n = at.data.gamman;
+  c.gamma_t = at.data.gammat;
+}
+
+/// The normal force of the last evaluation without its damper. Where `limitForce` has cut it off at 0 the damper does
+/// not tell: the model is asked again, without a velocity.
+double StockContact::elastic_force(const Begun& at, const StockSubContact& c) {
+  const double damper = at.data.gamman * at.data.vn;
+  if (at.data.Fn != 0 || damper == 0)
+    return at.data.Fn + damper;
+  if (viscous_)
+    return at.data.kn * at.data.deltan; // of hooke, which divides by the velocity then
+  Models& m = *models_;
+  Begun& still = m.aside;
+  still.data = at.data;
+  std::copy_n(c.history, m.history.size, m.scratch.data());
+  still.data.contact_history = m.scratch.data();
+  still.data.shearupdate = 0;
+  still.data.vn = 0;
+  still.on_a.reset();
+  still.on_b.reset();
+  m.normal->surfacesIntersect(still.data, still.on_a, still.on_b);
+  return still.data.Fn;
+}
+
+/// Leaves the contact its share of the dampers.
+void StockContact::keep_share(Begun& at, double share) {
+  stock::SurfacesIntersectData& data = at.data;
+  const bool cut_off = data.Fn == 0;
+  double normal = at.elastic - share * data.gamman * data.vn;
+  if (cut_off && normal < 0)
+    normal = 0;
+  const double more = normal - data.Fn;
+  for (int k = 0; k < 3; ++k) {
+    at.on_a.delta_F[k] += more * data.en[k];
+    at.on_b.delta_F[k] -= more * data.en[k];
+  }
+  data.Fn = normal;
+  data.gamman *= share;
+  data.gammat *= share;
 }
 
 /// Slip of the contact point in the middle of the step instead of what the velocities, which belong there, give at its
 /// end (contact_forces has the same).
-void StockContact::synchronise(const StockSubContact& c) {
-  stock::SurfacesIntersectData& data = models_->data;
+void StockContact::synchronise(Begun& at, const StockSubContact& c) {
+  stock::SurfacesIntersectData& data = at.data;
   using Eigen::Vector3d;
   const Eigen::Map<const Vector3d> va(c.velocity_a), vb(c.velocity_b), wa(c.omega_a), wb(c.omega_b), arm_a(c.arm_a),
       arm_b(c.arm_b), n(data.en);
@@ -317,28 +378,28 @@ void StockContact::synchronise(const StockSubContact& c) {
 }
 
 /// Stock's tangential model under the bound that was chosen.
-void StockContact::tangential(const StockSubContact& c) {
+void StockContact::tangential(Begun& at, const StockSubContact& c) {
   Models& m = *models_;
-  stock::SurfacesIntersectData& data = m.data;
+  stock::SurfacesIntersectData& data = at.data;
   if (bound_ != contact::FrictionBound::elastic || !friction_) {
-    m.tangential->surfacesIntersect(data, m.on_a, m.on_b);
+    m.tangential->surfacesIntersect(data, at.on_a, at.on_b);
     return;
   }
   const double whole = data.Fn;
-  const stock::ForceData before_a = m.on_a, before_b = m.on_b;
-  data.Fn = whole + data.gamman * data.vn; // without the damper
-  m.tangential->surfacesIntersect(data, m.on_a, m.on_b);
+  const stock::ForceData before_a = at.on_a, before_b = at.on_b;
+  data.Fn = at.elastic + at.adhesion; // without the damper
+  m.tangential->surfacesIntersect(data, at.on_a, at.on_b);
   const double cap = friction_[c.type_a][c.type_b] * std::fabs(data.Fn);
   double square = 0;
   for (int k = 0; k < 3; ++k)
-    square += (m.on_a.delta_F[k] - before_a.delta_F[k]) * (m.on_a.delta_F[k] - before_a.delta_F[k]);
+    square += (at.on_a.delta_F[k] - before_a.delta_F[k]) * (at.on_a.delta_F[k] - before_a.delta_F[k]);
   if (square > cap * cap) {
     const double cut = cap / std::sqrt(square);
     for (int k = 0; k < 3; ++k) {
-      m.on_a.delta_F[k] = before_a.delta_F[k] + cut * (m.on_a.delta_F[k] - before_a.delta_F[k]);
-      m.on_b.delta_F[k] = before_b.delta_F[k] + cut * (m.on_b.delta_F[k] - before_b.delta_F[k]);
-      m.on_a.delta_torque[k] = before_a.delta_torque[k] + cut * (m.on_a.delta_torque[k] - before_a.delta_torque[k]);
-      m.on_b.delta_torque[k] = before_b.delta_torque[k] + cut * (m.on_b.delta_torque[k] - before_b.delta_torque[k]);
+      at.on_a.delta_F[k] = before_a.delta_F[k] + cut * (at.on_a.delta_F[k] - before_a.delta_F[k]);
+      at.on_b.delta_F[k] = before_b.delta_F[k] + cut * (at.on_b.delta_F[k] - before_b.delta_F[k]);
+      at.on_a.delta_torque[k] = before_a.delta_torque[k] + cut * (at.on_a.delta_torque[k] - before_a.delta_torque[k]);
+      at.on_b.delta_torque[k] = before_b.delta_torque[k] + cut * (at.on_b.delta_torque[k] - before_b.delta_torque[k]);
     }
   }
   data.Fn = whole;
@@ -375,81 +436,111 @@ class VelocitiesOfSides {
 } // namespace
 
 /// Sub-spheres that do not touch. Liquid that a bridge moves is counted per volume of a sub-sphere, of which a body has
-/// more than one.
-void StockContact::close(const StockSubContact& c) {
+/// more than one, and for bodies of this rank alone: that of a ghost is counted by its own.
+void StockContact::close(Begun& at, const StockSubContact& c) {
   Models& m = *models_;
   const VelocitiesOfSides in_place(*lmp_->atom, m.rows, c);
-  double *flux_a = nullptr, *flux_b = nullptr, before_a = 0, before_b = 0;
-  if (m.liquid_flux && c.volume_a > 0)
-    before_a = *(flux_a = m.liquid_flux->vector_atom + c.a);
-  if (m.liquid_flux && c.volume_b > 0 && c.b >= 0)
-    before_b = *(flux_b = m.liquid_flux->vector_atom + c.b);
-  m.each([&](auto& model) { model.surfacesClose(m.data, m.on_a, m.on_b); });
-  constexpr double ball = 4. / 3. * M_PI;
-  if (flux_a)
-    *flux_a = before_a + (*flux_a - before_a) * ball * c.radius_a * c.radius_a * c.radius_a / c.volume_a;
-  if (flux_b)
-    *flux_b = before_b + (*flux_b - before_b) * ball * c.radius_b * c.radius_b * c.radius_b / c.volume_b;
+  double* flux = m.liquid_flux ? m.liquid_flux->vector_atom : nullptr;
+  const double before_a = flux ? flux[c.a] : 0, before_b = flux && !wall_ ? flux[c.b] : 0;
+  m.each([&](auto& model) { model.surfacesClose(at.data, at.on_a, at.on_b); });
+  const auto count = [&](int i, double before, double radius, double volume) {
+    constexpr double ball = 4. / 3. * M_PI;
+    if (!c.advance || i >= lmp_->atom->nlocal)
+      flux[i] = before;
+    else if (volume > 0)
+      flux[i] = before + (flux[i] - before) * ball * radius * radius * radius / volume;
+  };
+  if (flux)
+    count(c.a, before_a, c.radius_a, c.volume_a);
+  if (flux && !wall_)
+    count(c.b, before_b, c.radius_b, c.volume_b);
 }
 
-void StockContact::evaluate(StockSubContact& c) {
+void StockContact::begin(StockSubContact& c, int place) {
   Models& m = *models_;
-  stock::SurfacesIntersectData& data = m.data;
+  if (static_cast<std::size_t>(place) >= m.begun.size())
+    m.begun.resize(place + contact::ContactBlock::capacity);
+  Begun& at = m.begun[place];
+  stock::SurfacesIntersectData& data = at.data;
   fill(data, c, wall_);
   data.contact_history = c.history;
+  if (!c.advance) { // some models move their history on all the same
+    at.still.assign(c.history, c.history + m.history.size);
+    at.still.push_back(0);
+    data.contact_history = at.still.data();
+  }
   data.contact_flags = wall_ ? nullptr : &m.flags;
-  m.on_a.reset();
-  m.on_b.reset();
+  at.on_a.reset();
+  at.on_b.reset();
   data.kn = data.kt = data.gamman = data.gammat = 0;
   data.Fn = data.Ft = 0;
-  if (data.rsq < data.radsum * data.radsum) {
-    m.surface->surfacesIntersect(data, m.on_a, m.on_b);
+  c.touches = data.rsq < data.radsum * data.radsum;
+  if (c.touches) {
+    m.surface->surfacesIntersect(data, at.on_a, at.on_b);
     if (synchronised_ && c.advance)
-      synchronise(c);
-    m.normal->surfacesIntersect(data, m.on_a, m.on_b);
-    if (c.share != 1) {
-      // The dampers' part that the contact does not keep.
-      const double given_back = (1 - c.share) * data.gamman * data.vn;
-      for (int k = 0; k < 3; ++k) {
-        m.on_a.delta_F[k] += given_back * data.en[k];
-        m.on_b.delta_F[k] -= given_back * data.en[k];
-      }
-      data.Fn += given_back;
-      data.gamman *= c.share;
-      data.gammat *= c.share;
-    }
-    m.cohesion->surfacesIntersect(data, m.on_a, m.on_b);
-    tangential(c);
-    if (c.share != 1) { // dampers of rolling go with the root of the inertia
-      data.mi *= c.share * c.share;
-      data.mj *= c.share * c.share;
-    }
-    if (rolling_radius_ == RollingRadius::body) {
-      const auto distance = [](const double* arm, double reach, const double* n) {
-        const double x = arm[0] + reach * n[0], y = arm[1] + reach * n[1], z = arm[2] + reach * n[2];
-        return std::sqrt(x * x + y * y + z * z);
-      };
-      data.radi = distance(c.arm_a, -data.cri, data.en);
-      if (!wall_)
-        data.radj = distance(c.arm_b, data.crj, data.en);
-    }
-    m.rolling->surfacesIntersect(data, m.on_a, m.on_b);
-    m.cohesion->endSurfacesIntersect(data, m.on_a, m.on_b);
-    c.acts = true;
-  } else {
-    data.has_force_update = false;
-    close(c);
-    c.acts = data.has_force_update;
+      synchronise(at, c);
+    m.normal->surfacesIntersect(data, at.on_a, at.on_b);
   }
+  std::copy_n(data.en, 3, c.normal);
+  c.overlap = c.radius_a + c.radius_b - data.r;
   c.kn = data.kn;
   c.kt = data.kt;
   c.gamma_n = data.gamman;
   c.gamma_t = data.gammat;
-  for (int k = 0; k < 3; ++k) {
-    c.force[k] = c.acts ? m.on_a.delta_F[k] : 0;
-    c.torque_a[k] = c.acts ? m.on_a.delta_torque[k] : 0;
-    c.torque_b[k] = c.acts ? m.on_b.delta_torque[k] : 0;
+}
+
+/// Stock's rolling model with the radii that were chosen.
+void StockContact::rolling(Begun& at, const StockSubContact& c) {
+  stock::SurfacesIntersectData& data = at.data;
+  if (c.share != 1) { // dampers of rolling go with the root of the inertia
+    data.mi *= c.share * c.share;
+    data.mj *= c.share * c.share;
   }
+  if (rolling_radius_ == RollingRadius::body) {
+    const auto distance = [](const double* arm, double reach, const double* n) {
+      const double x = arm[0] + reach * n[0], y = arm[1] + reach * n[1], z = arm[2] + reach * n[2];
+      return std::sqrt(x * x + y * y + z * z);
+    };
+    data.radi = distance(c.arm_a, -data.cri, data.en);
+    if (!wall_)
+      data.radj = distance(c.arm_b, data.crj, data.en);
+  }
+  models_->rolling->surfacesIntersect(data, at.on_a, at.on_b);
+}
+
+void StockContact::finish(StockSubContact& c, int place) {
+  Models& m = *models_;
+  Begun& at = m.begun[place];
+  stock::SurfacesIntersectData& data = at.data;
+  if (c.touches) {
+    if (c.share != 1 || bound_ == contact::FrictionBound::elastic)
+      at.elastic = elastic_force(at, c);
+    if (c.share != 1)
+      keep_share(at, c.share);
+    const double normal = data.Fn;
+    m.cohesion->surfacesIntersect(data, at.on_a, at.on_b);
+    at.adhesion = data.Fn - normal;
+    tangential(at, c);
+    rolling(at, c);
+    m.cohesion->endSurfacesIntersect(data, at.on_a, at.on_b);
+    c.acts = true;
+  } else {
+    data.has_force_update = false;
+    close(at, c);
+    c.acts = data.has_force_update;
+  }
+  c.gamma_n = data.gamman;
+  c.gamma_t = data.gammat;
+  for (int k = 0; k < 3; ++k) {
+    c.force[k] = c.acts ? at.on_a.delta_F[k] : 0;
+    c.torque_a[k] = c.acts ? at.on_a.delta_torque[k] : 0;
+    c.torque_b[k] = c.acts ? at.on_b.delta_torque[k] : 0;
+  }
+  if (!std::isfinite(c.force[0] + c.force[1] + c.force[2]))
+    lmp_->error->one(FLERR, ("model " + names_.normal + ", cohesion " + names_.cohesion +
+                             ": the force of a contact is not a number; expected a smaller time step or less adhesion "
+                             "(surfaceEnergy, pullOffForce)")
+                                .c_str());
 }
 
 } // namespace eccentra::styles

@@ -45,7 +45,9 @@ struct StockSubContact {
   // Out.
   double force[3];                 ///< on A [N]; B gets the opposite
   double torque_a[3], torque_b[3]; ///< on the bodies about the centres of their sub-spheres [N m]
+  double normal[3], overlap;       ///< unit, from B to A; [m], negative across a gap
   double kn, kt, gamma_n, gamma_t; ///< of the normal model
+  bool touches;                    ///< the sub-spheres overlap
   bool acts;                       ///< there is a force
 };
 
@@ -69,6 +71,8 @@ class StockContact {
   int history_size() const;
   /// Before each run: fetches the materials.
   void connect();
+  /// Before the pairs of each step: ghosts have the liquid of their bodies, which LIGGGHTS sends with new lists alone.
+  void begin_step();
   /// p of F ~ overlap^p.
   double exponent() const;
   /// Sub-spheres interact up to this multiple of the sum of their radii; 1 where nothing reaches across a gap.
@@ -84,18 +88,31 @@ class StockContact {
 
   /// Stiffness and damping alone (kn, kt, gamma_n, gamma_t); history stays.
   void stiffness(StockSubContact& contact);
-  void evaluate(StockSubContact& contact);
+  /// The forces. Contacts that share dampers need kn of all of them first: `begin` gives it with the normal force,
+  /// whose history moves on, and `finish` takes the share. `place` tells contacts apart between the two, during which a
+  /// contact stays where it is in memory.
+  void begin(StockSubContact& contact, int place = 0);
+  void finish(StockSubContact& contact, int place = 0);
+  void evaluate(StockSubContact& contact) {
+    begin(contact);
+    finish(contact);
+  }
 
  private:
   struct Models;
-  void synchronise(const StockSubContact& contact);
-  void tangential(const StockSubContact& contact);
-  void close(const StockSubContact& contact);
+  struct Begun;
+  void synchronise(Begun& begun, const StockSubContact& contact);
+  double elastic_force(const Begun& begun, const StockSubContact& contact);
+  void keep_share(Begun& begun, double share);
+  void rolling(Begun& begun, const StockSubContact& contact);
+  void tangential(Begun& begun, const StockSubContact& contact);
+  void close(Begun& begun, const StockSubContact& contact);
   LAMMPS_NS::LAMMPS* lmp_;
   bool wall_;
   double reach_ = 1;
   RollingRadius rolling_radius_ = RollingRadius::sub_sphere;
   bool synchronised_ = false;
+  bool viscous_ = false; ///< the normal model's damping depends on the velocity
   contact::FrictionBound bound_ = contact::FrictionBound::stock;
   int shear_ = -1;              ///< where history keeps it
   double** friction_ = nullptr; ///< Coulomb's coefficient

@@ -34,6 +34,7 @@ ClusterContactKeywords read_contact_keywords(const std::vector<std::string>& arg
   ClusterContactKeywords words;
   words.names.normal.clear();
   bool tangential_update = false, friction_bound = false, radius = false, damping = false;
+  std::vector<std::string> switched_off; // switches of models; some are on where nothing is written
   base::OptionReader reader(arguments);
   while (reader.more()) {
     const std::string keyword = reader.keyword();
@@ -71,10 +72,10 @@ ClusterContactKeywords read_contact_keywords(const std::vector<std::string>& arg
       contact::refuse_stock_keyword(keyword, reader.value("on or off"));
     } else {
       const std::string value = reader.value("a value");
-      if (contact::is_switch_of_a_model(keyword) && !base::switch_value(value).value_or(true))
-        continue; // as where nothing is written
-      words.options.push_back(keyword);
-      words.options.push_back(value);
+      const bool nothing = contact::is_switch_of_a_model(keyword) && !base::switch_value(value).value_or(true);
+      std::vector<std::string>& where = nothing ? switched_off : words.options;
+      where.push_back(keyword);
+      where.push_back(value);
     }
   }
   if (words.names.normal.empty() || words.names.normal == "off")
@@ -99,6 +100,7 @@ ClusterContactKeywords read_contact_keywords(const std::vector<std::string>& arg
   if (!tangential_update)
     words.synchronised = !as_stock;
   if (!words.in_blocks) {
+    words.options.insert(words.options.end(), switched_off.begin(), switched_off.end());
     if (damping && words.damping == contact::DampingLaw::paper)
       base::refuse("damping: 'paper' is not offered for the models of LIGGGHTS; expected it with model hertz, "
                    "tangential history or off, no rolling friction and no cohesion");

@@ -142,6 +142,8 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   // Contacts through LIGGGHTS's own classes (pair_gran_cluster_stock.cpp).
   template <class Block> void compute_stock(Block& block);
   template <class Block> void fill_stock(const Block& block, int m, StockSubContact& contact);
+  template <class Block> void share_stock(Block& block);
+  void move_history_on();
   template <class Block> void write_down(const Block& block);
   template <class Forces> void scatter(int pair, const Forces& forces);
 
@@ -175,8 +177,9 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   std::string typed_;                 ///< all of the pair_style line, for restart files
   const contact::ContactModel* model_ = nullptr;
   std::unique_ptr<StockContact> stock_;
-  double reach_ = 1;               ///< sub-spheres interact up to this multiple of the sum of their radii
-  std::vector<double> block_more_; ///< ContactList::more of the contacts in the block
+  std::vector<StockSubContact> stock_contacts_; ///< of the block
+  double reach_ = 1;                            ///< sub-spheres interact up to this multiple of the sum of their radii
+  std::vector<double> block_more_;              ///< ContactList::more of the contacts in the block
   /// Where ContactList::more was in this step before it grew.
   std::vector<std::vector<double>> outgrown_;
   /// Torques that contacts of LIGGGHTS's models put on B beyond the opposite of what is on A, per pair in the block.

@@ -58,6 +58,8 @@ void PairGranCluster::compute_force(int eflag, int vflag, int addflag) {
   if (neighbor->ago == 0 || !near_->live())
     near_->rebuild(*list);
 
+  if (stock_)
+    stock_->begin_step();
   advance_ = shearupdate() && computeflag();
   NearPairs& near = *near_;
   const int pair_count = static_cast<int>(near.pairs.size());

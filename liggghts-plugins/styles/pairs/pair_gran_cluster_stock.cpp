@@ -47,65 +47,42 @@ template <class Block> void PairGranCluster::fill_stock(const Block& c, int m, S
   s.mass_a = a.mass;
   s.mass_b = b.mass;
   s.mass = c.mass[m];
-  const auto volume = [this](int i) {
-    return bodies_->is_round(i) ? 0. : bodies_->shapes()[bodies_->shape_id(i)].volume();
-  };
-  s.volume_a = volume(p.a);
-  s.volume_b = volume(p.b);
+  if (reach_ > 1) { // liquid bridges count per volume
+    const auto volume = [this](int i) {
+      return bodies_->is_round(i) ? 0. : bodies_->shapes()[bodies_->shape_id(i)].volume();
+    };
+    s.volume_a = volume(p.a);
+    s.volume_b = volume(p.b);
+  }
+  s.step = update->dt;
   s.history = block_more_.data() + near_->next.width * m;
   s.advance = advance_;
 }
 
 template <class Block> void PairGranCluster::compute_stock(Block& c) {
+  move_history_on();
   const int width = near_->next.width;
-  StockSubContact s;
-  const bool shared = arguments_.sharing == ContactSharing::shared && !single_contacts_;
-  if (shared) {
-    // Stiffness first: what the contacts of a pair share depends on all of them.
-    for (int m = 0; m < filled_; ++m) {
-      const Eigen::Vector3d n(c.separation[0][m], c.separation[1][m], c.separation[2][m]);
-      const double distance = n.norm();
+  double* histories = near_->next.more.data() + near_->next.more.size() - static_cast<std::size_t>(width) * filled_;
+  if (stock_contacts_.size() < static_cast<std::size_t>(filled_))
+    stock_contacts_.resize(filled_ + contact::ContactBlock::capacity);
+  for (int m = 0; m < filled_; ++m) {
+    StockSubContact& s = stock_contacts_[m];
+    fill_stock(c, m, s);
+    s.history = histories + width * m;
+    if (double* spring = stock_->displacement(s.history)) // commands that turn bodies know this one
       for (int k = 0; k < 3; ++k)
-        c.normal[k][m] = n[k] / distance;
-      c.overlap[m] = std::max(0., c.radius_a[m] + c.radius_b[m] - distance);
-      c.gamma_n[m] = c.gamma_t[m] = 1;
-      c.kn[m] = 0;
-      if (c.overlap[m] > 0) {
-        fill_stock(c, m, s);
-        stock_->stiffness(s);
-        c.kn[m] = s.kn;
-      }
-    }
-    for (int m = filled_; m < contact::whole_vectors(filled_); ++m)
-      c.kn[m] = c.overlap[m] = c.gamma_n[m] = c.gamma_t[m] = 0;
-    shares_.apply(
-        c, filled_, block_pair_.data(), pairs_in_block_,
-        [this](int k) {
-          return contact::ContactGroup{in_block_[k].first, in_block_[k].last};
-        },
-        pairs_);
+        spring[k] = c.history[k][m];
+    s.share = 1;
+    stock_->begin(s, m);
+    for (int k = 0; k < 3; ++k)
+      c.normal[k][m] = s.normal[k];
   }
-  // History moves on where it stays until the next step: fix rolling/limited writes to it after all forces.
-  std::vector<double>& more = near_->next.more;
-  const std::size_t before = more.size(), needed = before + static_cast<std::size_t>(width) * filled_;
-  if (needed > more.capacity()) {
-    std::vector<double> wider;
-    wider.reserve(2 * needed);
-    wider.assign(more.begin(), more.end());
-    more.swap(wider);
-    outgrown_.push_back(std::move(wider)); // what has been told about it still is memory
-  }
-  more.insert(more.end(), block_more_.data(), block_more_.data() + width * filled_);
+  if (arguments_.sharing == ContactSharing::shared && !single_contacts_)
+    share_stock(c);
   excess_torques_.assign(pairs_in_block_, Eigen::Vector3d::Zero());
   for (int m = 0; m < filled_; ++m) {
-    fill_stock(c, m, s);
-    s.history = more.data() + before + width * m;
-    if (double* spring = stock_->displacement(s.history))
-      for (int k = 0; k < 3; ++k) // commands that turn bodies know this one
-        spring[k] = c.history[k][m];
-    s.share = shared ? c.gamma_n[m] : 1;
-    s.step = update->dt;
-    stock_->evaluate(s);
+    StockSubContact& s = stock_contacts_[m];
+    stock_->finish(s, m);
     // About the bodies' centres.
     const Eigen::Map<const Eigen::Vector3d> force(s.force), arm_a(s.arm_a), arm_b(s.arm_b), on_a(s.torque_a),
         on_b(s.torque_b);
@@ -113,17 +90,47 @@ template <class Block> void PairGranCluster::compute_stock(Block& c) {
     const int pair = block_pair_[m];
     const Eigen::Vector3d offset(pairs_.offset[0][pair], pairs_.offset[1][pair], pairs_.offset[2][pair]);
     excess_torques_[pair] += on_b - arm_b.cross(force) - (offset.cross(force) - torque);
-    const double distance =
-        Eigen::Map<const Eigen::Vector3d>(s.separation).norm(); // for whoever writes the contacts down
-    c.overlap[m] = s.radius_a + s.radius_b - distance;
+    c.overlap[m] = s.overlap; // for whoever writes the contacts down
     const double* spring_after = stock_->displacement(s.history);
     for (int k = 0; k < 3; ++k) {
-      c.normal[k][m] = s.separation[k] / distance;
       c.force[k][m] = force[k];
       c.torque[k][m] = torque[k];
       c.history[k][m] = spring_after ? spring_after[k] : 0;
     }
   }
+}
+
+/// History moves on where it stays until the next step: fix rolling/limited writes to it after all forces.
+void PairGranCluster::move_history_on() {
+  std::vector<double>& more = near_->next.more;
+  const std::size_t count = static_cast<std::size_t>(near_->next.width) * filled_, needed = more.size() + count;
+  if (needed > more.capacity()) {
+    std::vector<double> wider;
+    wider.reserve(2 * needed);
+    wider.assign(more.begin(), more.end());
+    more.swap(wider);
+    outgrown_.push_back(std::move(wider)); // what has been told about it still is memory
+  }
+  more.insert(more.end(), block_more_.data(), block_more_.data() + count);
+}
+
+/// What each contact of the block keeps of its dampers, which depends on all contacts of its pair.
+template <class Block> void PairGranCluster::share_stock(Block& c) {
+  for (int m = 0; m < filled_; ++m) {
+    c.overlap[m] = std::max(0., stock_contacts_[m].overlap);
+    c.kn[m] = stock_contacts_[m].kn;
+    c.gamma_n[m] = c.gamma_t[m] = 1;
+  }
+  for (int m = filled_; m < contact::whole_vectors(filled_); ++m)
+    c.kn[m] = c.overlap[m] = c.gamma_n[m] = c.gamma_t[m] = 0;
+  shares_.apply(
+      c, filled_, block_pair_.data(), pairs_in_block_,
+      [this](int k) {
+        return contact::ContactGroup{in_block_[k].first, in_block_[k].last};
+      },
+      pairs_);
+  for (int m = 0; m < filled_; ++m)
+    stock_contacts_[m].share = c.gamma_n[m];
 }
 
 template void PairGranCluster::compute_stock(contact::ContactBlock& block);

@@ -204,10 +204,11 @@ class FixWallGranCluster : public LAMMPS_NS::Fix {
   std::unique_ptr<contact::ContactBlock> block_;
   std::unique_ptr<contact::LargeContactBlock> large_block_; ///< made when an atom needs it
   ContactRecords* all_records_ = nullptr;
-  ContactRecords* records_ = nullptr;          ///< null in steps whose contacts no output wants
-  contact::WallHistory::Entries next_history_; ///< of the particle at hand
-  std::vector<double> no_history_;             ///< for contacts that only tell their stiffness
-  std::array<double, 7> local_sums_{};         ///< force, torque, number of contacts on this rank
+  ContactRecords* records_ = nullptr;           ///< null in steps whose contacts no output wants
+  contact::WallHistory::Entries next_history_;  ///< of the particle at hand
+  std::vector<StockSubContact> stock_contacts_; ///< of the block
+  std::vector<double> no_history_;              ///< for contacts that only tell their stiffness
+  std::array<double, 7> local_sums_{};          ///< force, torque, number of contacts on this rank
   std::array<double, 7> global_sums_{};
   long long summed_at_ = -1;
 

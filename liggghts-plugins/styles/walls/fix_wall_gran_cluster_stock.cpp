@@ -73,16 +73,27 @@ void FixWallGranCluster::stock_stiffness(Block& block, const contact::WallTouch*
 
 template <class Block>
 void FixWallGranCluster::stock_evaluate(Block& block, const contact::WallTouch* touches, int n, bool advance) {
-  if (arguments_.shared)
-    stock_stiffness(block, touches, n);
+  if (stock_contacts_.size() < static_cast<std::size_t>(n))
+    stock_contacts_.resize(n + contact::ContactBlock::capacity);
   for (int m = 0; m < n; ++m) {
-    StockSubContact s = stock_contact(touches[m]);
+    StockSubContact& s = stock_contacts_[m] = stock_contact(touches[m]);
     if (double* spring = stock_->displacement(s.history))
       for (int k = 0; k < 3; ++k)
         spring[k] = block.history[k][m];
     s.advance = advance;
-    s.share = arguments_.shared ? block.share[m] : 1;
-    stock_->evaluate(s);
+    stock_->begin(s, m);
+    block.kn[m] = s.kn;
+    block.overlap[m] = std::max(0., touches[m].overlap);
+    block.gamma_n[m] = block.gamma_t[m] = 1;
+  }
+  for (int m = n; m < contact::whole_vectors(n); ++m)
+    block.kn[m] = block.overlap[m] = block.gamma_n[m] = block.gamma_t[m] = 0;
+  if (arguments_.shared && groups_ > 0)
+    share_groups(block, n);
+  for (int m = 0; m < n; ++m) {
+    StockSubContact& s = stock_contacts_[m];
+    s.share = arguments_.shared && groups_ > 0 ? block.share[m] : 1;
+    stock_->finish(s, m);
     const Eigen::Map<const Eigen::Vector3d> force(s.force), arm(s.arm_a), torque(s.torque_a);
     const Eigen::Vector3d about_centre = torque + arm.cross(force);
     const double* spring = stock_->displacement(s.history);

@@ -132,6 +132,7 @@ WallArguments read_wall_arguments(const std::vector<std::string>& all) {
   WallArguments arguments;
   OptionReader reader(all);
   bool friction_bound = false, tangential_update = false, rolling_radius = false;
+  std::vector<std::string> switched_off; // switches of models; some are on where nothing is written
   if (reader.keyword("model and its name") != "model")
     base::refuse("'{}' is not 'model'; expected model hertz, or another model, first", all.front());
   arguments.names.normal = StockContact::read_name(reader, "model");
@@ -156,10 +157,10 @@ WallArguments read_wall_arguments(const std::vector<std::string>& all) {
       arguments.rolling_radius =
           reader.choice({"sub_sphere", "body"}) == "body" ? RollingRadius::body : RollingRadius::sub_sphere;
     } else if (contact::is_switch_of_a_model(word)) {
-      if (reader.on_off()) {
-        arguments.options.push_back(word);
-        arguments.options.push_back("on");
-      }
+      const bool on = reader.on_off();
+      std::vector<std::string>& where = on ? arguments.options : switched_off;
+      where.push_back(word);
+      where.push_back(on ? "on" : "off");
     } else if (word == "surface") {
       reader.choice({"default"});
     } else if (word == "shear") {
@@ -189,6 +190,8 @@ WallArguments read_wall_arguments(const std::vector<std::string>& all) {
     }
   }
   complete(arguments, friction_bound, tangential_update);
+  if (!arguments.in_blocks)
+    arguments.options.insert(arguments.options.end(), switched_off.begin(), switched_off.end());
   if (rolling_radius && !arguments.rolling)
     base::refuse("rolling_radius: there is no rolling friction; expected rolling_friction with a model, "
                  "or no rolling_radius");

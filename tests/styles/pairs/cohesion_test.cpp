@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <map>
+#include <sstream>
 
 using namespace eccentra;
 using namespace eccentra::test;
@@ -74,17 +76,44 @@ After result(LiggghtsSession& session, int bodies) {
 
 enum class Partner { body, wall };
 
+/// Models by their names, and keywords of theirs: walls have these after the wall.
+struct Models {
+  std::string names, keywords = "";
+  std::map<std::string, std::string> materials = {};
+};
+
+std::string scaled(double value, double factor) {
+  std::ostringstream text;
+  text.precision(17);
+  text << value * factor;
+  return text.str();
+}
+
+/// Materials with which each of the contacts of a body of `count` times a sphere's mass has the stiffness and the
+/// damping ratio of that sphere's only contact. hooke takes its stiffness from (mass v^2)^(1/5), and the models
+/// /stiffness take the damping per mass or, with absolute_damping, as it is.
+std::map<std::string, std::string> as_of_one(const Models& models, int count) {
+  std::map<std::string, std::string> given = models.materials;
+  const double root = std::sqrt(std::max(1, count));
+  given["characteristicVelocity"] = scaled(0.5, 1 / root);
+  given["gamman"] = scaled(500, 1 / root);
+  given["gammat"] = scaled(200, 1 / root);
+  given["gamman_abs"] = scaled(0.05, root);
+  given["gammat_abs"] = scaled(0.02, root);
+  return given;
+}
+
 /// Two rows of `count` spheres run into each other, or one into a wall, and part again. 0: stock's spheres.
-After meet(const std::string& models, int count, Partner partner, double restitution, double speed = 0.2) {
+After meet(const Models& models, int count, Partner partner, double restitution, double speed = 0.2) {
   LiggghtsSession session;
   Material material;
   material.restitution = restitution;
   open_box(session, material);
-  give_materials(session);
-  const std::string line = (count ? "gran/cluster " : "gran ") + models;
-  session.script("pair_style " + line + "\npair_coeff * *\n");
+  give_materials(session, as_of_one(models, count));
+  const std::string line = (count ? "gran/cluster " : "gran ") + models.names;
+  session.script("pair_style " + line + " " + models.keywords + "\npair_coeff * *\n");
   if (partner == Partner::wall)
-    session.script("fix side all wall/" + line + " primitive type 1 xplane 0.0\n");
+    session.script("fix side all wall/" + line + " primitive type 1 xplane 0.0 " + models.keywords + "\n");
   session.script("fix integrate all " + std::string(count ? "nve/cluster" : "nve/sphere") + "\n");
   const int bodies = partner == Partner::body ? 2 : 1;
   for (int k = 0; k < bodies; ++k) {
@@ -109,16 +138,28 @@ void expect_same(const After& ours, const After& one, int bodies, const std::str
   }
 }
 
-std::vector<std::string> cohesive_models() {
-  std::vector<std::string> all;
-  // hooke's stiffness and the dampers of /stiffness follow the mass of the bodies, whatever the number of contacts.
+std::vector<Models> cohesive_models() {
+  std::vector<Models> all;
   for (const std::string& normal : known("model"))
-    if (normal != "off" && normal.find("hooke") != 0 && normal != "hertz/stiffness")
-      all.push_back("model " + normal);
+    if (normal != "off")
+      all.push_back({"model " + normal});
+  all.push_back({"model hooke/stiffness", "absolute_damping on"});
+  // Without tension: what a contact would pull it lets go.
+  for (const char* normal : {"hertz", "hertz/stiffness", "hooke", "hooke/stiffness"})
+    all.push_back({std::string("model ") + normal, "limitForce on"});
+  const std::map<std::string, std::string> dry = {
+      {"pullOffForce", "0"}, {"surfaceEnergy", "0"}, {"coefficientAdhesionStiffness", "0"}};
+  for (const char* normal : {"edinburgh", "edinburgh/stiffness", "luding"}) // do so by default where nothing adheres
+    all.push_back({std::string("model ") + normal, "", dry});
+  all.push_back({"model edinburgh", "limitForce off", dry});
   for (const std::string& cohesion : known("cohesion"))
     if (cohesion != "off")
-      all.push_back("model hertz cohesion " + cohesion);
+      all.push_back({"model hertz cohesion " + cohesion});
   return all;
+}
+
+std::string name_of(const Models& models, int count) {
+  return models.names + " " + models.keywords + (models.materials.empty() ? "" : " dry") + ", " + std::to_string(count);
 }
 
 } // namespace
@@ -126,28 +167,28 @@ std::vector<std::string> cohesive_models() {
 // Stock's single spheres, and rows of one, two and four: the same motion with `contacts shared`, since the dampers of N
 // contacts suit the N-fold mass. Damping by viscous liquid and cohesion add up as the masses do.
 TEST(Cohesion, RowsOfSpheresMeetAsTwoSpheresDo) {
-  for (const std::string& models : cohesive_models()) {
+  for (const Models& models : cohesive_models()) {
     const After stock = meet(models, 0, Partner::body, 0.5);
     for (const int count : {1, 2, 4})
-      expect_same(meet(models, count, Partner::body, 0.5), stock, 2, models + ", " + std::to_string(count));
+      expect_same(meet(models, count, Partner::body, 0.5), stock, 2, name_of(models, count));
   }
 }
 
 TEST(Cohesion, RowsOfSpheresMeetAWallAsOneSphereDoes) {
-  for (const std::string& models : cohesive_models()) {
+  for (const Models& models : cohesive_models()) {
     // Stock's easo reads the velocity of a wall from in front of the array of velocities.
-    const bool readable = models.find("easo") == std::string::npos;
+    const bool readable = models.names.find("easo") == std::string::npos;
     const After one = meet(models, readable ? 0 : 1, Partner::wall, 0.5);
     for (const int count : {1, 2, 4})
-      expect_same(meet(models, count, Partner::wall, 0.5), one, 1, models + ", " + std::to_string(count));
+      expect_same(meet(models, count, Partner::wall, 0.5), one, 1, name_of(models, count));
   }
 }
 
 // A bridge pulls once the sphere has left the wall.
 TEST(Cohesion, BridgesHoldBackWhatLeavesAWall) {
   for (const char* cohesion : {"easo/capillary/viscous", "washino/capillary/viscous"}) {
-    const double dry = meet("model hertz", 2, Partner::wall, 0.9, 0.05).v[0].x();
-    const double wet = meet(std::string("model hertz cohesion ") + cohesion, 2, Partner::wall, 0.9, 0.05).v[0].x();
+    const double dry = meet({"model hertz"}, 2, Partner::wall, 0.9, 0.05).v[0].x();
+    const double wet = meet({std::string("model hertz cohesion ") + cohesion}, 2, Partner::wall, 0.9, 0.05).v[0].x();
     EXPECT_NEAR(dry, -0.045, 1e-3);
     EXPECT_GT(wet, dry + 2e-3) << cohesion; // towards the wall is +x
   }

@@ -29,8 +29,9 @@ Two meet(const std::string& models, bool as_clusters, double faster = 0) {
                  (as_clusters ? " contacts parallel" : "") + "\npair_coeff * *\nfix integrate all " +
                  (as_clusters ? "nve/cluster" : "nve/sphere") + "\n");
   Start start[2];
-  start[0].position = Eigen::Vector3d(-2.6e-3, 0, 0);
-  start[1].position = Eigen::Vector3d(2.6e-3, 1e-3, 5e-4);
+  // Apart: in the set-up of a run stock's luding moves the history of what touches on by a step, and ours does not.
+  start[0].position = Eigen::Vector3d(-2.85e-3, 0, 0);
+  start[1].position = Eigen::Vector3d(2.85e-3, 1e-3, 5e-4);
   start[0].velocity = (1 + faster) * Eigen::Vector3d(0.3, 0.1, 0);
   start[1].velocity = Eigen::Vector3d(-0.2, 0, 0.05);
   start[0].omega = Eigen::Vector3d(20, -10, 30);
@@ -102,34 +103,96 @@ TEST(ContactModels, SingleSpheresHaveStocksDigits) {
   std::printf("%zu combinations of models\n", combinations.size());
 }
 
-TEST(ContactModels, ClustersReturnTheRestitutionUnderHooke) {
-  // A face, four, nine or 16 sub-spheres at once: a linear damped spring returns e exactly, and so do they together.
-  for (const char* count : {"1", "8", "27", "64"})
-    for (const bool shared : {true, false}) {
-      LiggghtsSession session;
-      open_box(session, {});
-      give_materials(session);
-      session.script("pair_style gran/cluster model hooke tangential history\npair_coeff * *\n"
-                     "fix floor all wall/gran/cluster model hooke tangential history contacts " +
-                     std::string(shared ? "shared" : "parallel") +
-                     " primitive type 1 zplane 0.0\nfix integrate all nve/cluster\n");
-      const bool sphere = std::string(count) == "1";
-      const auto shape = shape_of(sphere ? "sphere" : "cube", count);
-      double lowest = 0;
-      for (const auto& s : shape.spheres())
-        lowest = std::min(lowest, s.centre.z() - s.radius);
-      Start start;
-      start.position.z() = 1e-6 - lowest;
-      start.velocity.z() = -0.3;
-      add_body(session, shape, start);
-      session.script("timestep 1e-6\nrun 8000\n");
-      const double returned = session.atom().v[session.local(1)][2] / 0.3;
-      std::printf("hooke, %s spheres, %s: %.4f\n", count, shared ? "shared" : "parallel", returned);
-      if (shared || sphere)
-        EXPECT_NEAR(returned, 0.9, 2e-3) << count;
-      else
-        EXPECT_LT(returned, 0.85) << count;
-    }
+namespace {
+
+/// Linear springs of a body that lands on a wall with `touching` sub-spheres at once, and what they return.
+struct Linear {
+  double stiffness, damping_ratio, mass;
+  int touching;
+
+  double frequency() const { return std::sqrt(touching * stiffness / mass); }
+  double root() const { return std::sqrt(1 - damping_ratio * damping_ratio); }
+  /// A contact that ends with the overlap, and one that ends where its force would pull (Schwager & Poeschel 2007).
+  double restitution() const { return std::exp(-M_PI * damping_ratio / root()); }
+  double without_tension() const { return std::exp(-damping_ratio / root() * (M_PI - 2 * std::asin(damping_ratio))); }
+  /// Relative error of the restitution for steps of dt [s]. Half-step velocities in the damper: with a = zeta w dt a
+  /// step scales amplitudes by sqrt(1 - 2 a) instead of exp(-a) and turns the phase by a factor 1 + a / (2 (1 -
+  /// zeta^2)) too much, which over pi / (w dt root) steps is at most 3/2 pi zeta^2 w dt / root^3. The damper, which
+  /// acts at once when bodies touch, misses up to a step at either end: 2 a each.
+  double error(double dt) const {
+    const double z = damping_ratio, step = frequency() * dt;
+    return step * (4 * z + 1.5 * M_PI * z * z / (root() * root() * root()));
+  }
+};
+
+/// A body falls on a plane on its face and leaves it; velocity over that before.
+double returned(const shape::ClusterShape& shape, const std::string& words, const std::string& keywords, double dt) {
+  LiggghtsSession session;
+  open_box(session, {});
+  give_materials(session, {{"gamman", "3500"}, {"kn", "2e4"}});
+  session.script("pair_style gran/cluster " + words + " " + keywords +
+                 "\npair_coeff * *\nfix floor all wall/gran/cluster " + words + " primitive type 1 zplane 0.0 " +
+                 keywords + "\nfix integrate all nve/cluster\n");
+  double lowest = 0;
+  for (const auto& s : shape.spheres())
+    lowest = std::min(lowest, s.centre.z() - s.radius);
+  Start start;
+  start.position.z() = 1e-6 - lowest;
+  start.velocity.z() = -0.3;
+  add_body(session, shape, start);
+  session.command("timestep " + std::to_string(1e6 * dt) + "e-6");
+  session.command("run " + std::to_string(std::lround(6e-3 / dt)));
+  return session.atom().v[session.local(1)][2] / 0.3;
+}
+
+int touching(const shape::ClusterShape& shape) {
+  double lowest = 0;
+  for (const auto& s : shape.spheres())
+    lowest = std::min(lowest, s.centre.z() - s.radius);
+  int count = 0;
+  for (const auto& s : shape.spheres())
+    count += s.centre.z() - s.radius < lowest + 1e-9;
+  return count;
+}
+
+} // namespace
+
+// One sub-sphere, or a face of four, nine or 16 at once: linear damped springs return e to within the error of the
+// step, and so do they together, with and without tension. The models /stiffness have the damping ratio that one
+// contact of the same body has.
+TEST(ContactModels, LinearSpringsReturnTheRestitutionToTheErrorOfTheStep) {
+  constexpr double e = 0.9, youngs = 5e6 / (2 * (1 - 0.3 * 0.3)), characteristic = 0.5, density = 2619;
+  for (const char* model : {"hooke", "hooke/stiffness"})
+    for (const bool tension : {true, false})
+      for (const char* count : {"1", "8", "27", "64"}) {
+        const auto shape = shape_of(std::string(count) == "1" ? "sphere" : "cube", count);
+        const double radius = shape.smallest_radius(), mass = density * shape.volume();
+        Linear law = {2e4, 3500 * std::sqrt(mass) / (2 * std::sqrt(2e4)), mass, touching(shape)};
+        if (std::string(model) == "hooke") {
+          law.damping_ratio = -std::log(e) / std::hypot(M_PI, std::log(e));
+          law.stiffness =
+              16. / 15 * std::sqrt(radius) * youngs *
+              std::pow(15 * mass * characteristic * characteristic / (16 * std::sqrt(radius) * youngs), 0.2);
+        }
+        const double expected = tension ? law.restitution() : law.without_tension();
+        const std::string keywords = tension ? "" : "limitForce on",
+                          words = std::string("model ") + model + " tangential history";
+        for (const double dt : {4e-6, 1e-6}) {
+          const double now = returned(shape, words + " contacts shared", keywords, dt);
+          std::printf("%s, %s spheres, %s, dt %.0f us: %.5f of %.5f, error %.1e of at most %.1e\n", model, count,
+                      tension ? "tension" : "no tension", 1e6 * dt, now, expected, now / expected - 1, law.error(dt));
+          EXPECT_NEAR(now, expected, law.error(dt) * expected) << model << " C" << count << " dt " << dt;
+        }
+        if (law.touching > 1) {
+          // Each contact with a damper of its own: sqrt(N) times the damping ratio.
+          Linear each = law;
+          each.damping_ratio *= std::sqrt(law.touching);
+          const double parallel = tension ? each.restitution() : each.without_tension();
+          EXPECT_NEAR(returned(shape, words + " contacts parallel", keywords, 1e-6), parallel,
+                      each.error(1e-6) * parallel)
+              << model << " C" << count << " parallel";
+        }
+      }
 }
 
 TEST(ContactModels, AGrainInAGrooveRollsOutOfIt) {
