@@ -33,11 +33,12 @@ _eccentra_words() {
     --overlap) printf '%s' 'yes no' ;;
     --momentum) printf '%s' 'semiImplicit explicit' ;;
     --void-fraction) printf '%s' 'centre divided gaussian diffusion' ;;
-    sphere | cube | disk) [ "${1##*/}" != clusterShape ] || "$1" list 2>/dev/null | sed -n "s/^$2 \([0-9]*\) .*/\1/p" ;;
-    clusterShape | compare) printf '%s' 'sphere cube disk file stl compare advise list' ;;
+    clusterShape | compare) "$1" --help 2>/dev/null | sed -n 's/^  clusterShape \([a-z]*\) .*/\1/p' | sort -u ;;
     advise) printf '%s' 'cube disk' ;;
     eccentra) "$1" --help 2>/dev/null | sed -n 's/^  \([a-z][a-z-]*\) .*/\1/p' | grep -v '^eccentra$' ;;
     new) printf '%s' 'section well bed heap drum' ;;
+    -*) ;;
+    *) [ "${1##*/}" != clusterShape ] || "$1" list 2>/dev/null | awk -v family="$2" '$1 == family { print $2 }' ;;
   esac
 }
 

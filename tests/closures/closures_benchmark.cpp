@@ -4,6 +4,7 @@
 #include "closures/fluid_options.h"
 
 #include "hand_written_drag.h"
+#include "law_names.h"
 #include "particle_arrays.h"
 
 #include <benchmark/benchmark.h>
@@ -61,14 +62,12 @@ void run_hand_written(benchmark::State& state) {
 } // namespace
 
 int main(int argc, char** argv) {
-  const char* laws[] = {"chien",  "schiller_naumann", "haider_levenspiel", "ganser", "holzer_sommerfeld",
-                        "wen_yu", "gidaspow",         "di_felice",         "qkqy"};
   benchmark::RegisterBenchmark("empty", [](benchmark::State& s) { run_effects(s, kMud); });
   benchmark::RegisterBenchmark("hand_written_drag/herschel_bulkley", run_hand_written);
-  for (const char* law : laws)
+  for (const std::string& law : eccentra::test::drag_laws())
     for (const auto& [fluid, rheology] : {std::pair{"herschel_bulkley", kMud}, std::pair{"newtonian", kOil}}) {
       const std::string arguments = rheology + "drag " + law;
-      benchmark::RegisterBenchmark((std::string("drag_") + law + "/" + fluid).c_str(),
+      benchmark::RegisterBenchmark(("drag_" + law + "/" + fluid).c_str(),
                                    [arguments](benchmark::State& s) { run_effects(s, arguments); });
     }
   const std::pair<const char*, const char*> single[] = {

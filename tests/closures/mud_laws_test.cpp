@@ -4,12 +4,15 @@
 #include "closures/drag_table.h"
 #include "closures/fluid_options.h"
 
+#include "law_names.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <sstream>
 
 using namespace eccentra::closures;
+using eccentra::test::drag_laws;
 
 namespace {
 
@@ -44,14 +47,6 @@ double terminal_velocity(const FluidOptions& options) {
   return 0.5 * (low + high);
 }
 
-std::vector<std::string> all_laws() {
-  std::vector<std::string> names;
-  std::istringstream stream(drag_law_names());
-  for (std::string name; std::getline(stream, name, '|');)
-    names.push_back(name);
-  return names;
-}
-
 const char* const kMuds[] = {"herschel_bulkley 0 0.28 0.65", "herschel_bulkley 1 0.28 0.65",
                              "herschel_bulkley 3 0.28 0.65", "newtonian 0.1"};
 
@@ -83,7 +78,7 @@ TEST(MudLaws, TerminalVelocities) {
 TEST(MudLaws, BerisWeightHoldsASphereAtHisYieldStress) {
   const double critical = 0.143 / 3.0 * (kDensity - kMudDensity) * kGravity * kD; // 4.8073347 Pa
   EXPECT_NEAR(critical, 4.8073347, 1e-7);
-  for (const std::string& law : all_laws())
+  for (const std::string& law : drag_laws())
     for (const double index : {0.5, 0.65, 1.0}) {
       std::ostringstream words;
       words.precision(17);
@@ -108,7 +103,7 @@ TEST(MudLaws, OwnWeightsRestWhereTheFormulaSays) {
     const double critical = weight() / force(options, 1e-40); // [Pa], for the force is proportional to tau0 = 1 Pa
     EXPECT_NEAR(critical / ((kDensity - kMudDensity) * kGravity * kD), rest, 1e-9) << law;
   }
-  EXPECT_EQ(std::size(rows), all_laws().size());
+  EXPECT_EQ(std::size(rows), drag_laws().size());
 }
 
 TEST(MudLaws, PowerLawFactor) {
@@ -124,7 +119,7 @@ TEST(MudLaws, PowerLawFactor) {
 }
 
 TEST(MudLaws, WordsThatAreOffChangeNoDigit) {
-  for (const std::string& law : all_laws()) {
+  for (const std::string& law : drag_laws()) {
     const std::string mud = "rheology herschel_bulkley 1 0.28 0.65 drag " + law;
     const FluidOptions plain = options_of(mud),
                        off = options_of(mud + " yield_weight own power_law_factor none yield_form additive");
@@ -134,7 +129,7 @@ TEST(MudLaws, WordsThatAreOffChangeNoDigit) {
 }
 
 TEST(MudLaws, ForceGrowsWithTheSlip) {
-  for (const std::string& law : all_laws())
+  for (const std::string& law : drag_laws())
     for (const char* mud : {"herschel_bulkley 1 0.28 0.65", "power_law 0.28 0.4", "herschel_bulkley 10 1 1"})
       for (const char* words : {" yield_weight own", " yield_weight beris", " yield_form cross"}) {
         const FluidOptions options = options_of(std::string("rheology ") + mud + " drag " + law + words);
@@ -179,7 +174,7 @@ TEST(YieldForm, CrossIsTheComputedCreepingDrag) {
 }
 
 TEST(YieldForm, CrossLeavesBothLimits) {
-  for (const std::string& law : all_laws())
+  for (const std::string& law : drag_laws())
     for (const double index : {0.5, 1.0}) {
       std::ostringstream mud;
       mud << "drag " << law << " rheology herschel_bulkley ";
@@ -199,7 +194,7 @@ TEST(YieldForm, CrossLeavesBothLimits) {
 /// In creep every law gets the same further force.
 TEST(YieldForm, CrossTermIsTheSameForceUnderEveryLaw) {
   for (const double index : {0.5, 0.65, 1.0})
-    for (const std::string& law : all_laws()) {
+    for (const std::string& law : drag_laws()) {
       const double added =
           creeping_drag("yield_form cross drag " + law, index, 4.0) - creeping_drag("drag " + law, index, 4.0);
       EXPECT_NEAR(added, 2.0 * cross_coefficient(index), 1e-5) << law << ", n " << index;

@@ -7,6 +7,8 @@
 #include "closures/pitching_laws.h"
 #include "closures/vector_step.h"
 
+#include "law_names.h"
+
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
@@ -15,6 +17,7 @@
 #include <sstream>
 
 using namespace eccentra::closures;
+using eccentra::test::drag_laws;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -111,14 +114,6 @@ class OneBody : public ShapeCatalogue {
   double *velocity_row_ = velocity.data(), *force_row_ = force.data(), *spin_row_ = spin.data(),
          *torque_row_ = torque.data();
 };
-
-std::vector<std::string> drag_laws() {
-  std::istringstream names(drag_law_names());
-  std::vector<std::string> laws;
-  for (std::string name; std::getline(names, name, '|');)
-    laws.push_back(name);
-  return laws;
-}
 
 const char* const kFluids[] = {"rheology newtonian 0.1 density 1000 ",
                                "rheology herschel_bulkley 1 0.28 0.65 density 1000 "};

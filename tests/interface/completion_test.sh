@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Completes command lines as a shell does: completion_test.sh COMPLETION BIN
 set -uo pipefail
-# shellcheck source=scripts/completion.bash
+# shellcheck source=/dev/null
 . "$1"
 PATH=$2:$PATH
 failed=0
@@ -23,6 +23,8 @@ expect() {
 expect clusterShape --part = --partner
 expect clusterShape --partner s = sphere surface
 expect clusterShape cub = cube
+expect clusterShape sm = smooth
+expect clusterShape h = hull
 expect clusterShape disk "" = 7 19 48
 expect clusterShape compare cube 6 = 64
 expect clusterShape compare cube "" = 8 27 64
