@@ -3,6 +3,7 @@
 // Shape arguments and .clump files: what they mean, the body frame, and the sentences that bad ones earn.
 #include "shape/clump_file.h"
 #include "shape/cluster_shape.h"
+#include "shape/shape_refusals.h"
 #include "shape/union_geometry.h"
 
 #include <Eigen/Geometry>
@@ -13,6 +14,7 @@
 
 namespace {
 using namespace eccentra::shape;
+using eccentra::test::expect_sentence;
 using Eigen::Vector3d;
 
 std::string write_file(const std::string& name, const std::string& text) {
@@ -28,18 +30,7 @@ ClusterShape from_arguments(const std::vector<std::string>& arguments, double di
 }
 
 std::string refusal(const std::vector<std::string>& arguments, double diameter = 1) {
-  try {
-    std::size_t used = 0;
-    make_shape(arguments, 0, used, diameter);
-  } catch (const std::invalid_argument& e) {
-    return e.what();
-  }
-  return "accepted";
-}
-
-void expect_sentence(const std::string& text, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts)
-    EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is missing in: " << text;
+  return eccentra::test::refusal(arguments, diameter);
 }
 
 TEST(ShapeWords, FilesKeepTheirSizeOrAreScaledOrSized) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Solids from STL files: exact mass properties, inscribed spheres that stay inside and get better with their number.
+#include "shape/shape_refusals.h"
 #include "shape/stl_solids.h"
 #include "shape/union_geometry.h"
 #include "shape/vtk/stl_shape.h"
@@ -19,18 +20,7 @@ constexpr double float_digits = 1e-6; // STL carries floats
 
 std::string refusal(const std::vector<std::string>& arguments) {
   install_stl_keywords();
-  try {
-    std::size_t used = 0;
-    make_shape(arguments, 0, used, 0);
-  } catch (const std::invalid_argument& e) {
-    return e.what();
-  }
-  return "accepted";
-}
-
-void expect_sentence(const std::string& text, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts)
-    EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is missing in: " << text;
+  return eccentra::test::refusal(arguments, 0);
 }
 
 TEST(Solid, BoxHasItsMassPropertiesWhereverItIs) {

@@ -4,12 +4,12 @@
 #include "contact/balanced_planes.h"
 
 #include "styles/bodies/bodies_scene.h"
+#include "support/stl_file.h"
 
 #include "comm.h"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <random>
 
 using namespace eccentra;
@@ -99,19 +99,10 @@ Outcome run(MPI_Comm ranks, bool balanced) {
 } // namespace
 
 TEST(Balance, RanksShareTheBodiesAndNoDigitChanges) {
-  int ranks = 1, rank = 0;
+  int ranks = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (rank == 0) {
-    std::ofstream stl("balance_ramp.stl");
-    const char* corners[4] = {"-0.02 -0.03 -0.1", "0.09 -0.03 -0.08", "0.09 0.03 -0.08", "-0.02 0.03 -0.1"};
-    stl << "solid ramp\n";
-    for (const int t : {1, 2})
-      stl << "facet normal 0 0 1\nouter loop\nvertex " << corners[0] << "\nvertex " << corners[t] << "\nvertex "
-          << corners[t + 1] << "\nendloop\nendfacet\n";
-    stl << "endsolid ramp\n";
-  }
-  MPI_Barrier(MPI_COMM_WORLD);
+  write_stl_file("balance_ramp.stl",
+                 stl_quad({"-0.02 -0.03 -0.1", "0.09 -0.03 -0.08", "0.09 0.03 -0.08", "-0.02 0.03 -0.1"}));
   const Outcome alone = run(MPI_COMM_SELF, false), together = run(MPI_COMM_WORLD, true);
   EXPECT_EQ(together.bodies, alone.bodies);
   if (ranks > 1) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stock insertion of clusters: dense fills without a single overlap, rates and streams with exact counts.
 #include "styles/bodies/bodies_scene.h"
+#include "support/stl_file.h"
 
 #include "pair.h"
 
@@ -10,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 
 using namespace eccentra;
 using namespace eccentra::test;
@@ -195,16 +195,8 @@ TEST(Insertion, RateIntoARegionIsExact) {
 }
 
 TEST(Insertion, StreamsOfClustersKeepCountVelocityAndSpin) {
-  if (LiggghtsSession().rank() == 0) {
-    std::ofstream stl("stream_face.stl");
-    const char* corners[4] = {"-0.08 -0.08 0.05", "0.08 -0.08 0.05", "0.08 0.08 0.05", "-0.08 0.08 0.05"};
-    stl << "solid f\n";
-    for (const int t : {1, 2})
-      stl << "facet normal 0 0 1\nouter loop\nvertex " << corners[0] << "\nvertex " << corners[t] << "\nvertex "
-          << corners[t + 1] << "\nendloop\nendfacet\n";
-    stl << "endsolid f\n";
-  }
-  MPI_Barrier(MPI_COMM_WORLD);
+  write_stl_file("stream_face.stl",
+                 stl_quad({"-0.08 -0.08 0.05", "0.08 -0.08 0.05", "0.08 0.08 0.05", "-0.08 0.08 0.05"}));
   LiggghtsSession session;
   open_fill(session);
   // 0.4 m/s: a portion of 500 steps is 20 mm high and passes the face before the next one comes. A cube's moments of

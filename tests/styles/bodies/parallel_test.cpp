@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The same digits on any number of ranks and through a restart; periodic boundaries; bodies that leave.
 #include "styles/bodies/bodies_scene.h"
+#include "styles/bodies/body_rows.h"
+#include "support/stl_file.h"
 
 #include "force.h"
 #include "pair.h"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <random>
 
 using namespace eccentra;
@@ -59,52 +60,21 @@ constexpr const char* forces = R"(
   thermo_modify lost ignore
 )";
 
-/// Written by rank 0, as all ranks read it.
 void write_ramp() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (rank == 0) {
-    std::ofstream stl("ramp.stl");
-    const char* corners[4] = {"-0.02 -0.02 -0.1", "0.02 -0.02 -0.095", "0.02 0.02 -0.09", "-0.02 0.02 -0.095"};
-    stl << "solid ramp\n";
-    for (const int t : {1, 2})
-      stl << "facet normal 0 0 1\nouter loop\nvertex " << corners[0] << "\nvertex " << corners[t] << "\nvertex "
-          << corners[t + 1] << "\nendloop\nendfacet\n";
-    stl << "endsolid ramp\n";
-  }
-  MPI_Barrier(MPI_COMM_WORLD);
-}
-
-using Row = std::array<double, 13>;
-
-/// Position, velocity, quaternion and angular velocity by tag, the same on every rank; zero where a body is gone.
-std::vector<Row> rows_of(LiggghtsSession& session, int tags, MPI_Comm ranks) {
-  std::vector<Row> all(tags, Row{});
-  styles::FixClusterBodies& bodies = styles::FixClusterBodies::require(&session.lammps());
-  for (int tag = 1; tag <= tags; ++tag) {
-    const int i = session.local(tag);
-    if (i < 0)
-      continue;
-    double* next = all[tag - 1].data();
-    next = std::copy_n(session.atom().x[i], 3, next);
-    next = std::copy_n(session.atom().v[i], 3, next);
-    next = std::copy_n(bodies.quaternion(i), 4, next);
-    std::copy_n(session.atom().omega[i], 3, next);
-  }
-  MPI_Allreduce(MPI_IN_PLACE, all[0].data(), tags * 13, MPI_DOUBLE, MPI_SUM, ranks);
-  return all;
+  write_stl_file("ramp.stl",
+                 stl_quad({"-0.02 -0.02 -0.1", "0.02 -0.02 -0.095", "0.02 0.02 -0.09", "-0.02 0.02 -0.095"}));
 }
 
 constexpr int bodies_at_start = rows * rows * layers + 2;
 
-void expect_identical(const std::vector<Row>& ours, const std::vector<Row>& reference) {
+void expect_identical(const std::vector<BodyRow>& ours, const std::vector<BodyRow>& reference) {
   int different = 0;
   for (std::size_t n = 0; n < reference.size(); ++n)
     different += ours[n] != reference[n];
   EXPECT_EQ(different, 0) << "bodies whose state differs in any bit";
 }
 
-std::vector<Row> straight_run(MPI_Comm ranks, int steps) {
+std::vector<BodyRow> straight_run(MPI_Comm ranks, int steps) {
   LiggghtsSession session(ranks);
   open_box(session, {});
   use_clusters(session);
@@ -112,7 +82,7 @@ std::vector<Row> straight_run(MPI_Comm ranks, int steps) {
   session.script(forces);
   session.script("timestep 1e-5\nrun " + std::to_string(steps) + "\n");
   EXPECT_EQ(session.atom().natoms, bodies_at_start - 2) << "two bodies have left through the boundary";
-  return rows_of(session, bodies_at_start, ranks);
+  return body_rows(session, bodies_at_start, ranks);
 }
 
 } // namespace
@@ -145,7 +115,7 @@ void resume(LiggghtsSession& session, const std::string& file) {
 TEST(Parallel, RestartGivesTheSameDigitsAsAStraightRun) {
   constexpr int half = 3000;
   write_ramp();
-  const std::vector<Row> reference = straight_run(MPI_COMM_SELF, 2 * half);
+  const std::vector<BodyRow> reference = straight_run(MPI_COMM_SELF, 2 * half);
   {
     LiggghtsSession session;
     open_box(session, {});
@@ -158,7 +128,7 @@ TEST(Parallel, RestartGivesTheSameDigitsAsAStraightRun) {
   LiggghtsSession session(MPI_COMM_SELF); // written by all ranks, read by one
   resume(session, "half.restart." + std::to_string(half));
   session.script("run " + std::to_string(half) + "\n");
-  expect_identical(rows_of(session, bodies_at_start, MPI_COMM_SELF), reference);
+  expect_identical(body_rows(session, bodies_at_start, MPI_COMM_SELF), reference);
 }
 
 TEST(Parallel, RestartGoesOnOnMoreAndMoreRanks) {
@@ -167,7 +137,7 @@ TEST(Parallel, RestartGoesOnOnMoreAndMoreRanks) {
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   write_ramp();
-  const std::vector<Row> reference = straight_run(MPI_COMM_SELF, 3 * part);
+  const std::vector<BodyRow> reference = straight_run(MPI_COMM_SELF, 3 * part);
   const int sizes[] = {1, std::min(2, ranks), ranks};
   for (int n = 0; n < 3; ++n) {
     MPI_Comm some;
@@ -186,7 +156,7 @@ TEST(Parallel, RestartGoesOnOnMoreAndMoreRanks) {
       session.script("restart " + std::to_string((n + 1) * part) + " chain.restart\nrun " +
                      std::to_string(part + (n < 2 ? 10 : 0)) + "\n");
       if (n == 2)
-        expect_identical(rows_of(session, bodies_at_start, some), reference);
+        expect_identical(body_rows(session, bodies_at_start, some), reference);
     }
     if (some != MPI_COMM_NULL)
       MPI_Comm_free(&some);
@@ -212,10 +182,10 @@ TEST(Parallel, PairsMeetThroughPeriodicBoundariesAsInTheMiddle) {
     start.orientation = Eigen::Quaterniond(0.3, 0.8, 0.1, -0.2).normalized();
     add_body(session, shape_of("disk", "19"), start);
     session.script("timestep 2e-6\nrun 8000\n");
-    return rows_of(session, 2, MPI_COMM_WORLD);
+    return body_rows(session, 2, MPI_COMM_WORLD);
   };
-  const std::vector<Row> middle = run(Eigen::Vector3d::Zero());
-  const std::vector<Row> across = run(Eigen::Vector3d(0.0999, 0, 0));
+  const std::vector<BodyRow> middle = run(Eigen::Vector3d::Zero());
+  const std::vector<BodyRow> across = run(Eigen::Vector3d(0.0999, 0, 0));
   for (int body = 0; body < 2; ++body)
     for (int k = 3; k < 13; ++k)
       EXPECT_NEAR(across[body][k], middle[body][k], 1e-7 * (k < 10 ? 1 : 100)) << "body " << body << " value " << k;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // fix sleep/cluster: a bed asleep is the bed awake within the tolerance, and whatever disturbs it wakes it.
 #include "styles/bodies/bodies_scene.h"
+#include "styles/bodies/body_rows.h"
 
 #include <gtest/gtest.h>
 
@@ -121,25 +122,6 @@ double mean_speed(LiggghtsSession& session, int k) {
   return weighed(session, [&](int i) { return session.atom().v[i][k]; }) / mass(session);
 }
 
-using Row = std::array<double, 13>;
-
-std::vector<Row> rows_of(LiggghtsSession& session, int tags, MPI_Comm ranks = MPI_COMM_WORLD) {
-  std::vector<Row> all(tags, Row{});
-  styles::FixClusterBodies& data = styles::FixClusterBodies::require(&session.lammps());
-  for (int tag = 1; tag <= tags; ++tag) {
-    const int i = session.local(tag);
-    if (i < 0)
-      continue;
-    double* next = all[tag - 1].data();
-    next = std::copy_n(session.atom().x[i], 3, next);
-    next = std::copy_n(session.atom().v[i], 3, next);
-    next = std::copy_n(data.quaternion(i), 4, next);
-    std::copy_n(session.atom().omega[i], 3, next);
-  }
-  MPI_Allreduce(MPI_IN_PLACE, all[0].data(), tags * 13, MPI_DOUBLE, MPI_SUM, ranks);
-  return all;
-}
-
 /// Sum over the one body that was added to the bed.
 template <class Value> double of_ball(LiggghtsSession& session, Value value) {
   double sum = 0;
@@ -191,9 +173,9 @@ TEST(Sleep, BedAsleepCarriesItsWeightWithinTheTolerance) {
               output(session, "sleep", 4) * weight, 1e-9 * weight);
   EXPECT_NEAR(height(session), height(awake), 1e-4 * diameter);
   // Nothing happens while all are asleep.
-  const std::vector<Row> before = rows_of(session, bodies);
+  const std::vector<BodyRow> before = body_rows(session, bodies);
   run(session, 500);
-  EXPECT_EQ(rows_of(session, bodies), before);
+  EXPECT_EQ(body_rows(session, bodies), before);
 }
 
 TEST(Sleep, BallReboundsFromABedAsleepAsFromOneAwake) {
@@ -359,7 +341,7 @@ TEST(Sleep, RestartGivesTheSameDigitsOnAnyNumberOfRanks) {
     drop_ball(session);
     session.script(more);
     run(session, after);
-    return std::make_pair(rows_of(session, bodies + 1, ranks), asleep(session));
+    return std::make_pair(body_rows(session, bodies + 1, ranks), asleep(session));
   };
   const auto [reference, sleepers] = straight(MPI_COMM_SELF, "");
   EXPECT_LT(sleepers, bodies);
@@ -372,7 +354,7 @@ TEST(Sleep, RestartGivesTheSameDigitsOnAnyNumberOfRanks) {
     LiggghtsSession session(ranks);
     open_bed(session, "half.restart." + std::to_string(middle), sleeping);
     run(session, settling_steps + before + after - middle);
-    EXPECT_EQ(rows_of(session, bodies + 1, ranks), reference);
+    EXPECT_EQ(body_rows(session, bodies + 1, ranks), reference);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "contact/gjk.h"
 #include "shape/drawn_surface.h"
 #include "shape/rounded_hull.h"
+#include "support/stl_file.h"
 
 #include "compute.h"
 #include "modify.h"
@@ -274,15 +275,12 @@ TEST(SmoothScene, RowsOfContactsAddUp) {
 
 // The ridge of a mesh under the middle of a face: the edges of the face bounce off it as off a body.
 TEST(SmoothScene, RidgeOfAMesh) {
-  std::ofstream stl("ridge.stl");
-  const char* points[6] = {"-0.02 -0.02 -0.02", "-0.02 0.02 -0.02", "0 -0.02 0",
-                           "0 0.02 0",          "0.02 -0.02 -0.02", "0.02 0.02 -0.02"};
-  stl << "solid ridge\n";
-  for (const auto& t : {std::array{0, 2, 1}, {1, 2, 3}, {2, 4, 3}, {3, 4, 5}})
-    stl << "facet normal 0 0 1\nouter loop\nvertex " << points[t[0]] << "\nvertex " << points[t[1]] << "\nvertex "
-        << points[t[2]] << "\nendloop\nendfacet\n";
-  stl << "endsolid ridge\n";
-  stl.close();
+  const std::string points[6] = {"-0.02 -0.02 -0.02", "-0.02 0.02 -0.02", "0 -0.02 0",
+                                 "0 0.02 0",          "0.02 -0.02 -0.02", "0.02 0.02 -0.02"};
+  write_stl_file("ridge.stl", {{points[0], points[2], points[1]},
+                               {points[1], points[2], points[3]},
+                               {points[2], points[4], points[3]},
+                               {points[3], points[4], points[5]}});
   LiggghtsSession session;
   Material material;
   material.restitution = 1;

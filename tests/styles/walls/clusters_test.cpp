@@ -4,16 +4,18 @@
 // centre.
 #include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/walls/wall_scene.h"
+#include "support/stl_file.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 
 using eccentra::styles::FixClusterBodies;
 using eccentra::test::LiggghtsSession;
+using eccentra::test::stl_quad;
 using eccentra::test::wall_scene;
+using eccentra::test::write_stl_file;
 
 namespace {
 
@@ -199,15 +201,7 @@ TEST(WallClusters, RimOfATiltedDiskFollowsTheClosedForm) {
 }
 
 TEST(WallClusters, MeshFloorIsThePlane) {
-  {
-    std::ofstream stl("floor_plane.stl");
-    stl << "solid f\n";
-    const char* corners[4] = {"-0.05 -0.05 0", "0.05 -0.05 0", "0.05 0.05 0", "-0.05 0.05 0"};
-    for (const int t : {1, 2})
-      stl << "facet normal 0 0 1\nouter loop\nvertex " << corners[0] << "\nvertex " << corners[t] << "\nvertex "
-          << corners[t + 1] << "\nendloop\nendfacet\n";
-    stl << "endsolid f\n";
-  }
+  write_stl_file("floor_plane.stl", stl_quad({"-0.05 -0.05 0", "0.05 -0.05 0", "0.05 0.05 0", "-0.05 0.05 0"}));
   Drop d;
   d.family = "cube";
   d.count = "27";
