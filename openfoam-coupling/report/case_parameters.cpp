@@ -98,6 +98,8 @@ std::string caption_of_parameters(const Case& data) {
     caption += *phrase.before != '\0' ? " " : "";
     caption += phrase.factor > 0 ? fmt::format("{:.4g}{}", phrase.factor * number, phrase.unit) : found->second;
   }
+  if (values.count("sizes") != 0) // the diameter is that in their middle
+    caption += ", " + values["sizes"].substr(0, values["sizes"].find(' ')) + " sizes";
   return caption;
 }
 

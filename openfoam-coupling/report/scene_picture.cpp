@@ -158,6 +158,14 @@ const Wall* drum_of(const Column& column) {
   return nullptr;
 }
 
+/// A hole or pipe is seen from its side, however short the piece of it is.
+bool along_a_cylinder(const Column& column, const Vector& sight) {
+  for (const auto& [id, wall] : column.view->data->dem.walls)
+    if (wall.kind == Wall::Kind::cylinder && std::abs(dot(wall.axis, sight)) > kParallel)
+      return true;
+  return false;
+}
+
 void choose_sight(Column& column) {
   const Vector& g = column.view->data->dem.gravity;
   if (dot(g, g) > 0)
@@ -171,7 +179,7 @@ void choose_sight(Column& column) {
     for (const std::size_t d : {1U, 0U, 2U}) { // along y where sides are equal
       Vector axis = {0, 0, 0};
       axis[d] = 1;
-      if (std::abs(dot(axis, column.up)) > kParallel)
+      if (std::abs(dot(axis, column.up)) > kParallel || along_a_cylinder(column, axis))
         continue;
       if (shortest == 0 || column.bounds.size(d) < 0.999 * shortest) {
         shortest = column.bounds.size(d);

@@ -196,6 +196,28 @@ TEST(Report, CutsNoBodyAtTheSideOfThePicture) {
   }
 }
 
+// Spheres along the middle of a pipe that lies and is shorter than wide: a line from its side, a spot along its axis.
+TEST(Report, SeesAPipeFromItsSide) {
+  const fs::path folder = fresh_folder("pipe");
+  std::ostringstream points, radii, still;
+  points << "# vtk DataFile Version 2.0\npipe\nASCII\nDATASET POLYDATA\nPOINTS 30 float\n";
+  for (int i = 0; i < 30; ++i) {
+    points << "0 0 " << 0.005 + 0.09 * i / 29 << "\n";
+    radii << "0.005\n";
+    still << "0 0 0\n";
+  }
+  write_file(folder / "particles_100.vtk", points.str() +
+                                               "POINT_DATA 30\nSCALARS radius float 1\nLOOKUP_TABLE default\n" +
+                                               radii.str() + "VECTORS v float\n" + still.str());
+  write_file(folder / "log.liggghts", "Created orthogonal box = (-1 -1 0) to (1 1 0.1)\ntimestep 1e-3\n"
+                                      "fix weight all gravity 9.81 vector 0 -0.9 -0.4\n"
+                                      "fix hole all wall/gran model hertz primitive type 1 zcylinder 0.052 0 0\n");
+  const ProgramResult run = report({folder});
+  ASSERT_EQ(run.status, 0) << run.output;
+  const std::vector<bool> columns = coloured_columns(folder / "report/scene.png", 0.4);
+  EXPECT_GT(std::count(columns.begin(), columns.end(), true), 0.3 * static_cast<double>(columns.size()));
+}
+
 TEST(Report, SaysWhatAFolderLacks) {
   const fs::path folder = fresh_folder("nothing");
   const ProgramResult run = report({folder});
