@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Random impacts of two clusters, hundreds of pairs side by side in one scene: none gains energy, momentum is kept.
 #include "styles/bodies/bodies_scene.h"
+#include "styles/pairs/all_materials.h"
 
 #include <gtest/gtest.h>
 
@@ -25,6 +26,8 @@ double impact_step() {
   const char* text = std::getenv("ECCENTRA_IMPACT_STEP");
   return text ? std::atof(text) : 5e-6;
 }
+
+const std::string kHertz = "model hertz tangential history ";
 
 constexpr double impact_time = 0.04; // s until all pairs have parted
 
@@ -56,7 +59,8 @@ std::vector<Pair> collide(const std::vector<shape::ClusterShape>& shapes, int co
       std::to_string(material.youngs) + "\nfix m2 all property/global poissonsRatio peratomtype 0.3\n" +
       "fix m3 all property/global coefficientRestitution peratomtypepair 1 " + std::to_string(material.restitution) +
       "\nfix m4 all property/global coefficientFriction peratomtypepair 1 " + std::to_string(material.friction) + "\n");
-  use_clusters(session, arguments);
+  give_materials(session);
+  session.script("pair_style gran/cluster " + arguments + "\npair_coeff * *\nfix integrate all nve/cluster\n");
   std::mt19937 random(11);
   std::normal_distribution<double> normal(0, 1);
   std::uniform_real_distribution<double> u(-1, 1);
@@ -115,13 +119,30 @@ const std::vector<shape::ClusterShape>& mixed_shapes() {
 TEST(Energy, RandomImpactsNeverGainEnergy) {
   // Contacts open at all overlaps: what is left is the integrator's error, second order in the step.
   for (const char* arguments : {"contacts shared", "contacts parallel"})
-    expect_no_gain(collide(mixed_shapes(), impacts_asked_for(), {}, arguments), 1e-6);
+    expect_no_gain(collide(mixed_shapes(), impacts_asked_for(), {}, kHertz + arguments), 1e-6);
+}
+
+// Rolling friction takes energy alone, in impacts that would else keep it: its springs give back at most what they
+// took, and end with their contact.
+TEST(Energy, RollingFrictionNeverAddsAny) {
+  Material elastic;
+  elastic.restitution = 1;
+  elastic.friction = 0;
+  std::vector<std::string> models = {"shape form limited", "shape form directional", "shape form epsd"};
+  for (const std::string& rolling : known("rolling_friction"))
+    if (rolling != "off" && rolling != "eccentric" && rolling != "shape")
+      models.push_back(rolling);
+  for (const std::string& rolling : models)
+    for (const char* sharing : {" contacts shared", " contacts parallel"}) {
+      std::printf("%s%s: ", rolling.c_str(), sharing);
+      expect_no_gain(collide(mixed_shapes(), 150, elastic, kHertz + "rolling_friction " + rolling + sharing), 1e-4);
+    }
 }
 
 TEST(Energy, FrictionlessElasticImpactsKeepIt) {
   Material elastic;
   elastic.restitution = 1;
   elastic.friction = 0;
-  for (const Pair& p : collide(mixed_shapes(), 200, elastic, ""))
+  for (const Pair& p : collide(mixed_shapes(), 200, elastic, kHertz))
     EXPECT_NEAR(p.after / p.before, 1, 1e-4);
 }
