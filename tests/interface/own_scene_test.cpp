@@ -127,6 +127,17 @@ TEST_F(OwnScene, SaysHowFastAGrainSettles) {
   EXPECT_EQ(printed(held.output, "settling velocity"), 0) << held.output;
 }
 
+// Cuttings that settle stay, so that their number and the time of a step grow; those that the mud carries leave.
+TEST_F(OwnScene, ExpectsTheTimeOfWhatIsInTheHole) {
+  const auto expected = [&](const char* tau0, const char* seconds) {
+    const ProgramResult made = eccentra(
+        {"new", "well", "x", "--plan", "--length", "0.2", "--rate", "2", "--tau0", tau0, "--seconds", seconds});
+    return printed(made.output, "expected run time +about");
+  };
+  EXPECT_NEAR(expected("6", "2") / expected("6", "1"), 2, 0.1);
+  EXPECT_GT(expected("0", "2") / expected("0", "1"), 2.5);
+}
+
 TEST_F(OwnScene, HeapIsPouredDrawnAndGoesOn) {
   const ProgramResult made = eccentra({"new", "heap", "h", "--shape", "cube 8", "--count", "60", "--seconds", "0.6"});
   ASSERT_EQ(made.status, 0) << made.output;

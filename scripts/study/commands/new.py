@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Writes a case of one's own, whose script, mesh and boundary conditions take every number from one file, and says how it was laid out."""
 import argparse
+import math
 import pathlib
 import shutil
 import sys
@@ -187,9 +188,15 @@ def table(layout):
                f"the DEM step is {found.fluid_step / found.interval / found.critical_step:.2f} of the critical one"),
               ("cuttings", f"{found.count}", found.why_count)]
 
+    settling = scene_grains.settling_speed(grain, form.sphericity, mud, "chien")
+    through = wish.length / wish.velocity
+    carried = abs(settling) * math.sin(math.radians(wish.inclination)) * through < 0.5 * found.annulus.widest
+
     def expected(part):
-        """Seconds of a part of the run: of a well that fills, cuttings and their time grow with it."""
+        """Seconds of a part of the run: of a well that fills, cuttings and their time grow with it, until they leave at the other end."""
         count = found.count * (0.5 * part if wish.kind == "well" else 1)
+        if wish.kind == "well" and carried:
+            count = min(count, found.count / wish.seconds * through)
         return scene_grains.run_time(grain, count, part * steps * found.interval, found.number_of_cells, part * steps)
 
     lines.append(("expected run time", scene_grains.said_time(expected(1)), f"one core, {steps:.3g} fluid steps; within a factor of three"))
