@@ -61,7 +61,12 @@ class Bed {
                     "communicate single vel yes\nunits si\nregion box block 0 0.036 0 0.036 -0.01 0.12 units box\n"
                     "create_box 1 box\n" +
                     granular_material({5e6, 0.5, 0.5, 0.3}));
-    give_materials(session_);
+    std::map<std::string, std::string> given;
+    if (words.find("thornton_ning") != std::string::npos) // adhesive contacts that let go fast are no numbers there
+      given = {{"surfaceEnergy", "0"}};
+    if (words.find("hertz/stiffness") != std::string::npos) // kn is a modulus [Pa]
+      given = {{"kn", "4e6"}, {"kt", "4e6"}, {"gamman", "3e6"}, {"gammat", "1e6"}};
+    give_materials(session_, given);
     session_.script("pair_style gran/cluster " + words +
                     "\npair_coeff * *\nfix weight all gravity 9.81 vector 0 0 -1\n" +
                     "fix floor all wall/gran/cluster model hertz tangential history primitive type 1 zplane 0.0\n"
