@@ -80,14 +80,14 @@ DensityDistribution read_density(base::OptionReader& reader) {
     const double least = reader.positive("the least density [kg/m3]");
     const double most = reader.positive("the greatest density [kg/m3]");
     if (most < least)
-      base::refuse("keyword 'density': uniform '{}' is less than '{}'; expected the least density first", most, least);
+      base::refuse("density uniform '{}' is less than '{}'; expected the least density first", most, least);
     return {Kind::uniform, (least + most) / 2, (most - least) / 2};
   }
   if (kind == "gaussian") {
     const double mean = reader.positive("the mean density [kg/m3]");
     const double deviation = reader.positive("the deviation [kg/m3]");
     if (mean <= DensityDistribution::kCut * deviation)
-      base::refuse("keyword 'density': gaussian '{}' is more than a third of the mean: densities are drawn within "
+      base::refuse("density gaussian '{}' is more than a third of the mean: densities are drawn within "
                    "three deviations of the mean and must stay above 0; expected a smaller deviation",
                    deviation);
     return {Kind::gaussian, mean, deviation};
@@ -97,13 +97,12 @@ DensityDistribution read_density(base::OptionReader& reader) {
   const double median = reader.positive("the median density [kg/m3]");
   const double deviation = reader.positive("the deviation of the logarithm");
   if (deviation > 1)
-    base::refuse("keyword 'density': lognormal '{}' is above 1, which spreads densities over a factor of 400; expected "
+    base::refuse("density lognormal '{}' is above 1, which spreads densities over a factor of 400; expected "
                  "the deviation of the logarithm, such as 0.05",
                  deviation);
   constexpr double lightest = 20; // stock templates expect the mean of the logarithm here, such as 7.8
   if (median < lightest)
-    base::refuse("keyword 'density': lognormal '{}' is below 20 kg/m3; expected the median density, not its logarithm",
-                 median);
+    base::refuse("density lognormal '{}' is below 20 kg/m3; expected the median density, not its logarithm", median);
   return {Kind::lognormal, median, deviation};
 }
 

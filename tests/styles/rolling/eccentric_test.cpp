@@ -136,10 +136,10 @@ TEST(EccentricBatch, EqualsTheSingleContact) {
   }
   const std::filesystem::path pebble = fresh_folder("batch") / "pebble.clump";
   write_file(pebble, lines);
-  for (const auto& [word, value] :
-       {std::pair<std::string, std::string>{"cube", "64"}, {"disk", "48"}, {"file", pebble}}) {
-    const SupportTable shape = table_of(word, value);
-    EXPECT_EQ(shape.few(), word != "file");
+  using Words = std::pair<std::string, std::string>;
+  for (const Words& words : {Words{"cube", "64"}, {"disk", "48"}, {"file", pebble}}) {
+    const SupportTable shape = table_of(words.first, words.second);
+    EXPECT_EQ(shape.few(), words.first != "file");
     eccentra::contact::EccentricBatch batch;
     constexpr double radius = 3e-3;
     constexpr double damping = 0.04;
@@ -163,7 +163,7 @@ TEST(EccentricBatch, EqualsTheSingleContact) {
       const double tolerance = seen < 2 ? 1e-9 : 1e-13 * std::pow(10, 1.5 + 0.4 * seen);
       EXPECT_LT((Eigen::Vector3d(torque[0], torque[1], torque[2]) - expected[seen]).norm(),
                 tolerance * radius * 1e-2 * (seen + 1))
-          << word << " " << value << ", side " << seen;
+          << words.first << " " << words.second << ", side " << seen;
       ++seen;
     });
     EXPECT_EQ(seen, expected.size());
