@@ -49,3 +49,23 @@ in_root() {
       ${4:+CCACHE_DIR=/var/cache/ccache CCACHE_SLOPPINESS=pch_defines,time_macros CMAKE_CXX_COMPILER_LAUNCHER=ccache} bash -c "$2"' \
     - "$1" "$2" "${ECCENTRA_JOBS:-}" "${3:-}" </dev/null
 }
+
+# copy_tree FOLDER: the tracked files as they stand; what was built there stays. Only what differs is replaced, with the time of now: builds go by
+# times, and a file may be older than what was built from its predecessor.
+copy_tree() {
+  local new file
+  mkdir -p "$1"
+  new=$(mktemp -d "$1.XXXXXX")
+  git ls-files -z | tar --null --ignore-failed-read -cf - -T - | tar -xf - -C "$new"
+  while IFS= read -r -d '' file; do
+    [ -e "$new/$file" ] || [ -L "$new/$file" ] || rm -rf "${1:?}/$file"
+  done < <(cd "$1" && find . -mindepth 1 ! -path './build*' -print0)
+  while IFS= read -r -d '' file; do
+    if ! cmp -s "$new/$file" "$1/$file" || [ "$(stat -c %a "$new/$file")" != "$(stat -c %a "$1/$file")" ]; then
+      mkdir -p "$(dirname "$1/$file")"
+      rm -f "$1/$file"
+      cp -P "$new/$file" "$1/$file"
+    fi
+  done < <(cd "$new" && find . ! -type d -print0)
+  rm -rf "$new"
+}
