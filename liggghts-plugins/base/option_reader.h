@@ -20,8 +20,10 @@ std::optional<bool> switch_value(const std::string& text);
 /// with a sentence that names keyword, value and expectation, also if the arguments end too early.
 class OptionReader {
  public:
+  /// Takes the arguments after those that the command has read itself.
   explicit OptionReader(std::vector<std::string> arguments) : arguments_(std::move(arguments)) {}
 
+  /// True if an argument is left.
   bool more() const { return at_ < arguments_.size(); }
   /// Number of arguments that have been read.
   std::size_t at() const { return at_; }
@@ -41,8 +43,11 @@ class OptionReader {
   const std::string& value(const std::string& expected);
   /// Reads this keyword and no other.
   void expect(const std::string& word);
+  /// A finite number; `expected` describes it for a refusal.
   double number(const std::string& expected = "a finite number");
+  /// A number greater than 0; `name` says what it stands for, with its unit.
   double positive(const std::string& name = "");
+  /// A number of at least `low`.
   double at_least(double low, const std::string& name = "");
   /// A number with low < value < high.
   double between(double low, double high, const std::string& name = "");

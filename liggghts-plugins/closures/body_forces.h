@@ -13,33 +13,37 @@ namespace eccentra::closures {
 struct BuoyancyField {
   static constexpr const char* kName = "buoyancy";
   static constexpr unsigned kNeeds = 0;
-  double density;
+  double density; ///< of the fluid [kg/m3]
   /// -rho_f g: the hydrostatic part of -grad p.
   double operator()(const HalfStep& half_step, int, int k) const { return -density * half_step.gravity[k]; }
 };
 
+/// The generalised buoyancy of a flow that is solved.
 struct PressureField {
   static constexpr const char* kName = "pressure_gradient";
   static constexpr unsigned kNeeds = link::kPressureGradient;
-  double density;
+  double density; ///< of the fluid [kg/m3]
   /// -grad p_rgh; the fluid has its opposite in alpha grad p already (model A).
   double operator()(const HalfStep& half_step, int i, int k) const {
     return -half_step.samples.pressure_gradient()[i][k];
   }
 };
 
+/// The resolved viscous stress of the flow.
 struct StressField {
   static constexpr const char* kName = "viscous_stress";
   static constexpr unsigned kNeeds = link::kStressDivergence;
-  double density;
+  double density; ///< of the fluid [kg/m3]
   /// div tau; with it, -grad p_rgh is the whole stress of model A on the particle.
   double operator()(const HalfStep& half_step, int i, int k) const {
     return half_step.samples.stress_divergence()[i][k];
   }
 };
 
+/// The force V times a field, explicit.
 template <class Field> class BodyForce : public Effect {
  public:
+  /// Reads the density alone.
   explicit BodyForce(const Rheology& fluid) : field_{fluid.density} {}
 
   const char* name() const override { return Field::kName; }

@@ -18,8 +18,11 @@ namespace eccentra::closures {
 /// Only the law's argument is limited; no volume is lost.
 constexpr double kDragFractionFloor = 0.3;
 
+/// Drag of every particle as an implicit step against its slip: `Stress` is the stress scale X, `Law` the coefficient
+/// G(Re).
 template <class Stress, class Law> class DragEffect : public Effect {
  public:
+  /// `name` is that of the law in scripts.
   DragEffect(const char* name, const Rheology& fluid)
       : name_("drag " + std::string(name)), fluid_(fluid), stress_(fluid) {}
 

@@ -38,6 +38,7 @@ template <class Single, bool VoidReynolds = false> struct Suspended {
   Single law;
   explicit Suspended(const ShapeFactors& shape) : law(shape) {}
 
+  /// The law at the place of one particle: coefficients times the power of the fraction.
   struct Placed {
     static constexpr bool kAffine = Single::kAffine;
     Single law;
@@ -188,6 +189,7 @@ struct Gidaspow {
   double sphericity;
 
   explicit Gidaspow(const ShapeFactors& shape) : dilute(shape), sphericity(shape.sphericity) {}
+  /// At one place: Ergun's two terms in a dense bed, else Wen & Yu.
   struct Placed {
     static constexpr bool kAffine = false;
     bool dense;
@@ -215,6 +217,7 @@ struct DiFelice {
   static constexpr double kChi = 3.7, kChiDip = 0.65, kChiCentre = 1.5;
 
   explicit DiFelice(const ShapeFactors&) {}
+  /// At one place: the exponent of the fraction depends on Re.
   struct Placed {
     static constexpr bool kAffine = false;
     double fraction;
@@ -255,6 +258,7 @@ struct Qkqy {
   Qkqy(const ShapeFactors&, const Rheology& fluid)
       : index(fluid.index), plateau(kPlateau / (std::pow(index, kPlateauPower) + kPlateauShift)),
         viscous(kViscousRoot * std::pow(index, kViscousPower)) {}
+  /// At one place: the crowding factors of its fraction.
   struct Placed {
     static constexpr bool kAffine = false;
     double plateau, viscous, log_fraction, creeping, dip, rise;

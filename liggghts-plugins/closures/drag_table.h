@@ -11,7 +11,9 @@
 
 namespace eccentra::closures {
 
+/// A row of the table of drag laws.
 struct DragLaw {
+  /// The name in scripts and the effect of the law for any rheology.
   const char* name;
   std::unique_ptr<Effect> (*make)(const char* name, const Rheology&);
   std::unique_ptr<Effect> (*make_void_reynolds)(const char* name, const Rheology&); ///< with alpha Re in place of Re

@@ -20,7 +20,9 @@ struct OrientedShape;
 class ShapeCatalogue {
  public:
   virtual ~ShapeCatalogue() = default;
+  /// Number of kinds; they are 0 .. kinds() - 1.
   virtual int kinds() const = 0;
+  /// What drag laws know of a kind.
   virtual ShapeFactors factors(int kind) const = 0;
   /// Smallest principal moment of inertia over m R_eq^2; 0.4 for a sphere.
   virtual double inertia_factor(int kind) const = 0;
@@ -35,24 +37,24 @@ class ShapeCatalogue {
 
 /// The particles of one rank at one half step of the integrator, as plain arrays; rows are local atoms.
 struct HalfStep {
-  int count = 0;
-  double interval = 0.0; ///< time over which the forces of this half step act [s]
-  double** velocity = nullptr;
-  double** force = nullptr; ///< all other forces when an effect starts; each effect adds its own
-  double** spin = nullptr;
-  double** torque = nullptr;
-  const double* mass = nullptr;
-  const double* radius = nullptr; ///< of the sphere of equal volume [m]
-  const int* kind = nullptr;      ///< see ShapeCatalogue
-  const int* mask = nullptr;
-  int group = 0;      ///< bit of the atoms that feel the fluid
-  int integrated = 0; ///< bits of the atoms that a fix integrates
-  int frozen = 0;     ///< bits of the atoms that do not move: they load the fluid and receive no force
-  double gravity[3] = {0.0, 0.0, 0.0};
-  link::FluidSamples samples;
-  double (*impulse)[3] = nullptr;
-  double* drag_coefficient = nullptr;
-  double (*last)[4] = nullptr; ///< drag and lifts of this half step [N], and the linearised drag [kg/s]
+  int count = 0;                       ///< local atoms
+  double interval = 0.0;               ///< time over which the forces of this half step act [s]
+  double** velocity = nullptr;         ///< [m/s], world frame
+  double** force = nullptr;            ///< all other forces when an effect starts; each effect adds its own
+  double** spin = nullptr;             ///< [rad/s], world frame
+  double** torque = nullptr;           ///< [N m], as `force`
+  const double* mass = nullptr;        ///< [kg]
+  const double* radius = nullptr;      ///< of the sphere of equal volume [m]
+  const int* kind = nullptr;           ///< see ShapeCatalogue
+  const int* mask = nullptr;           ///< bits of the groups of an atom
+  int group = 0;                       ///< bit of the atoms that feel the fluid
+  int integrated = 0;                  ///< bits of the atoms that a fix integrates
+  int frozen = 0;                      ///< bits of the atoms that do not move: they load the fluid and receive no force
+  double gravity[3] = {0.0, 0.0, 0.0}; ///< [m/s2]
+  link::FluidSamples samples;          ///< the flow at the particles' centres, without the arrays that no effect needs
+  double (*impulse)[3] = nullptr;      ///< by drag and lifts since the last coupling step [N s]
+  double* drag_coefficient = nullptr;  ///< linearised drag times its time, summed like `impulse` [kg]
+  double (*last)[4] = nullptr;         ///< drag and lifts of this half step [N], and the linearised drag [kg/s]
 
   /// interval/m [s/kg], the change of velocity of atom i by a force; 0 if nothing can move it.
   double compliance(int i) const { return (mask[i] & integrated) && !(mask[i] & frozen) ? interval / mass[i] : 0.0; }
@@ -69,13 +71,16 @@ struct HalfStep {
 
 /// Range of validity of a closure in a dimensionless number of the particle.
 struct Validity {
-  Number number;
-  double low, high;
+  Number number;    ///< which number of the particle
+  double low, high; ///< the range in which the closure was measured
 };
 
+/// A force, or a torque, of the fluid on all particles of a rank. Effects act one after the other in each half step,
+/// drag last, because it is implicit against the sum of the others.
 class Effect {
  public:
   virtual ~Effect() = default;
+  /// Name in messages and reports.
   virtual const char* name() const = 0;
   /// Name in tables: all drag laws are "drag".
   virtual const char* slot() const { return name(); }
@@ -83,9 +88,11 @@ class Effect {
   virtual unsigned needs() const = 0;
   /// Prepares data that depend on shapes only; called at set-up.
   virtual void prepare(const ShapeCatalogue&) {}
+  /// Adds the force of one half step to all particles of the group.
   virtual void apply(const HalfStep& half_step) = 0;
   /// True if it acts on spins (HalfStep::torque), false if on velocities (HalfStep::force).
   virtual bool is_torque() const { return false; }
+  /// Ranges outside of which a warning is given; empty: valid everywhere.
   virtual std::vector<Validity> validity() const { return {}; }
   /// Slot of an effect that must be on if this one is, or null.
   virtual const char* requires_slot() const { return nullptr; }
@@ -94,9 +101,10 @@ class Effect {
   const double* total() const { return total_; }
 
  protected:
-  double total_[3] = {0.0, 0.0, 0.0};
+  double total_[3] = {0.0, 0.0, 0.0}; ///< of this rank's particles [N, or N m]
 };
 
+/// In the order in which they act.
 using EffectList = std::vector<std::unique_ptr<Effect>>;
 
 } // namespace eccentra::closures

@@ -22,11 +22,14 @@ namespace eccentra::closures {
 /// the dropped values stays below the tolerance. An effect that another one needs stays with it.
 class EffectScreen {
  public:
+  /// `effects` must have the same order in later calls.
   EffectScreen(const ScreenOptions& options, const EffectList& effects);
 
+  /// As given.
   const ScreenOptions& options() const { return options_; }
   /// True while measuring (every effect is on).
   bool measuring() const { return measuring_; }
+  /// True in the half steps whose forces are recorded.
   bool sample_now() const { return measuring_ && done_ % stride_ == 0; }
   /// Applies all effects like a half step without a screen, and records the force of each.
   void apply(const HalfStep& half_step, const EffectList& effects, const Rheology& fluid);

@@ -12,23 +12,24 @@
 
 namespace eccentra::closures {
 
+/// What a line `fix ID group fluid/force ...` states.
 struct FluidOptions {
-  Rheology rheology;
-  std::string drag = "none";
-  bool void_reynolds = false;    ///< alpha Re in place of Re in a single-particle drag law
-  bool power_law_factor = false; ///< x = X(n) in the stress scale
-  bool beris_yield = false;      ///< w by which a sphere rests where Beris et al. (1985) say
-  bool cross_yield = false;      ///< a cross term of viscous and yield stress
-  bool shear_lift = false;
-  bool rotational_lift = false;
-  bool drag_torque = false;
-  bool oriented = false;        ///< drag and drag_torque of the real shape
-  bool strain_torque = false;   ///< with oriented
-  bool pitching_torque = false; ///< with oriented
-  bool buoyancy = true;
-  bool pressure_gradient = false;
-  bool viscous_stress = false;
-  ScreenOptions screen;
+  Rheology rheology;                      ///< with the weights that the keywords below choose
+  std::string drag = "none";              ///< name of the drag law
+  bool void_reynolds = false;             ///< alpha Re in place of Re in a single-particle drag law
+  bool power_law_factor = false;          ///< x = X(n) in the stress scale
+  bool beris_yield = false;               ///< w by which a sphere rests where Beris et al. (1985) say
+  bool cross_yield = false;               ///< a cross term of viscous and yield stress
+  bool shear_lift = false;                ///< Saffman and Mei
+  bool rotational_lift = false;           ///< Oesterle and Bui Dinh
+  bool drag_torque = false;               ///< of Dennis et al., on a relative spin
+  bool oriented = false;                  ///< drag and drag_torque of the real shape
+  bool strain_torque = false;             ///< with oriented
+  bool pitching_torque = false;           ///< with oriented
+  bool buoyancy = true;                   ///< -rho_f g V
+  bool pressure_gradient = false;         ///< -grad p_rgh V
+  bool viscous_stress = false;            ///< div tau V
+  ScreenOptions screen;                   ///< tolerance 0: none
   std::vector<double> sphericity = {1.0}; ///< of plain spheres: one value, or one per atom type
 };
 

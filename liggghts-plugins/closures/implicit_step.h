@@ -15,12 +15,13 @@ namespace eccentra::closures {
 /// dG/dRe. The form has no 0/0: at rest R = area * X(0) * G(0), the yield resistance. A law with kAffine has G =
 /// viscous() + plateau() Re and needs no Re.
 template <class Stress, class Law> struct Resistance {
-  Stress stress;
-  Law law;
+  Stress stress;         ///< X
+  Law law;               ///< G
   double area;           ///< [m2] for a force, [m3] for a torque
   double inverse_length; ///< [1/m] for a force, 1 for a torque
   double inertia;        ///< [kg/m3] for a force, [kg/m] for a torque
 
+  /// R(0): what the yield stress holds; 0 without one.
   double at_rest() const {
     const double yield = stress.at_rest();
     return yield > 0.0 ? area * yield * law(0.0).value : 0.0;
@@ -51,8 +52,8 @@ constexpr double kBracketShrink = 0.1;
 
 /// Slip speed after a step and the resistance that acted during it.
 struct ImplicitSlip {
-  double speed;
-  double resistance;
+  double speed;      ///< at the end of the step [m/s, or rad/s]
+  double resistance; ///< [N, or N m]
 };
 
 /// Solves speed + compliance * R(speed) = free_slip for speed >= 0. Exactly 0 where the yield resistance holds the

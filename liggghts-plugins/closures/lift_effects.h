@@ -13,10 +13,12 @@ namespace eccentra::closures {
 /// Calls force(i, viscosity, d, slip, out) for every particle that slips, and adds what comes out.
 class Lift : public Effect {
  public:
+  /// Density and viscosity are those of `fluid`.
   explicit Lift(const Rheology& fluid) : fluid_(fluid) {}
   unsigned needs() const override { return link::kVelocity | link::kVorticity; }
 
  protected:
+  /// `d` [m] is the diameter of the sphere of equal volume, `slip` [m/s] that of the fluid relative to the particle.
   template <class Force> void for_each(const HalfStep& half_step, Force&& force) {
     double sum[3] = {0.0, 0.0, 0.0};
     for (int i = 0; i < half_step.count; ++i) {
@@ -41,9 +43,10 @@ class Lift : public Effect {
     }
     std::copy(sum, sum + 3, total_);
   }
-  Rheology fluid_;
+  Rheology fluid_; ///< as given
 };
 
+/// Lift of a shear flow: Saffman (1965) with Mei's (1992) factor.
 class ShearLift : public Lift {
  public:
   using Lift::Lift;
@@ -58,6 +61,7 @@ class ShearLift : public Lift {
   }
 };
 
+/// Lift of a spin relative to the fluid: Oesterle & Bui Dinh (1998).
 class RotationalLift : public Lift {
  public:
   using Lift::Lift;

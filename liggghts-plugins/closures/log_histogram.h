@@ -12,10 +12,13 @@
 
 namespace eccentra::closures {
 
+/// Counts of positive values in bins of equal width in their logarithm, with their mean and the largest. Memory does
+/// not depend on their number.
 class LogHistogram {
  public:
   LogHistogram() : counts_(kBins, 0) {}
 
+  /// Values below the lowest bin count there, values above the highest one in that.
   void add(double value) {
     const double place = value > kLowest ? 1.0 + std::log10(value / kLowest) * kPerDecade : 0.0;
     ++counts_[static_cast<int>(std::min(place, kBins - 1.0))];
@@ -29,13 +32,16 @@ class LogHistogram {
     MPI_Allreduce(MPI_IN_PLACE, &sum_, 1, MPI_DOUBLE, MPI_SUM, ranks);
     MPI_Allreduce(MPI_IN_PLACE, &largest_, 1, MPI_DOUBLE, MPI_MAX, ranks);
   }
+  /// Number of values.
   std::int64_t count() const {
     std::int64_t all = 0;
     for (const std::int64_t c : counts_)
       all += c;
     return all;
   }
+  /// Exact mean; 0 without values.
   double mean() const { return count() ? sum_ / double(count()) : 0.0; }
+  /// Exact largest value; 0 without values.
   double largest() const { return largest_; }
   /// Quantile: the upper edge of its bin (5 %).
   double quantile(double part) const {
@@ -49,12 +55,15 @@ class LogHistogram {
     return largest_;
   }
 
+  /// Number of doubles of a saved state.
   static constexpr int state_size() { return kBins + 2; }
+  /// Writes state_size() doubles.
   void save(double* state) const {
     std::copy(counts_.begin(), counts_.end(), state);
     state[kBins] = sum_;
     state[kBins + 1] = largest_;
   }
+  /// Reads what save() wrote.
   void load(const double* state) {
     for (int bin = 0; bin < kBins; ++bin)
       counts_[bin] = static_cast<std::int64_t>(state[bin]);

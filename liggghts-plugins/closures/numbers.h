@@ -5,6 +5,7 @@
 
 namespace eccentra::closures {
 
+/// Dimensionless numbers of a particle, in which closures state their ranges of validity.
 enum Number : int {
   kReynolds,       ///< Re_HB, eq (23)
   kBingham,        ///< Bi = (tau0/k)(d/U)^n

@@ -22,6 +22,7 @@ namespace eccentra::closures {
 /// exact.
 template <class Stress, class Law> class OrientedDrag : public DragEffect<Stress, Law> {
  public:
+  /// `name` is that of the law in scripts.
   OrientedDrag(const char* name, const Rheology& fluid)
       : DragEffect<Stress, Law>(name, fluid), fluid_(fluid), stress_(fluid) {}
 

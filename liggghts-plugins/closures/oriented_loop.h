@@ -15,6 +15,7 @@ namespace eccentra::closures {
 /// The kinds of a scene as forces of the real shape see them: null for a plain sphere.
 class OrientedKinds {
  public:
+  /// Reads the kinds of the scene; `shapes` must outlive this object.
   void prepare(const ShapeCatalogue& shapes) {
     shapes_ = &shapes;
     kinds_.clear();
@@ -26,6 +27,7 @@ class OrientedKinds {
   }
   /// True if the scene has a shape that is not a sphere.
   bool any() const { return any_; }
+  /// Null for a plain sphere.
   const OrientedShape* operator[](int kind) const { return kinds_[std::size_t(kind)]; }
 
   /// Turns body into world.
@@ -52,6 +54,7 @@ class OrientedKinds {
   bool any_ = false;
 };
 
+/// Three components as a vector.
 inline Eigen::Vector3d vector_of(const double* v) {
   return {v[0], v[1], v[2]};
 }

@@ -25,6 +25,7 @@ struct OrientedShape {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();   ///< K_rot, body frame
   Eigen::Vector3d inertia = Eigen::Vector3d::Constant(0.1); ///< principal moments over m d^2, along the body axes
   /// y = modes q turns a spin in the body frame into modes that rotation and inertia share: dy/dt = -rate y pi mu d/m.
+  /// modes_inverse turns them back.
   Eigen::Matrix3d modes = Eigen::Matrix3d::Identity(), modes_inverse = Eigen::Matrix3d::Identity();
   bool shared_modes = true;                                ///< the modes are the body axes, and `modes` the unit matrix
   Eigen::Vector3d rates = Eigen::Vector3d::Constant(10.0); ///< K_rot over inertia, by mode
@@ -33,14 +34,15 @@ struct OrientedShape {
 
   /// Pitching about body axis k by slips along the axes k+1 and k+2: of the spheroids that turn alike in a strain.
   struct Pitching {
-    double sign = 0.0;  ///< 1: axis k+1 is the longer one, -1: k+2 is, 0: they are alike and there is no torque
-    double blade = 0.0; ///< 0: axis k is as the shorter one (a rod), 1: as the longer one (a disk)
-    PitchingLaw rod, disk;
+    double sign = 0.0;     ///< 1: axis k+1 is the longer one, -1: k+2 is, 0: they are alike and there is no torque
+    double blade = 0.0;    ///< 0: axis k is as the shorter one (a rod), 1: as the longer one (a disk)
+    PitchingLaw rod, disk; ///< of a prolate and of an oblate spheroid
+    /// Coefficient C'(Re), between rod and disk by `blade`.
     double operator()(double re) const {
       return (blade < 1.0 ? (1.0 - blade) * rod(re) : 0.0) + (blade > 0.0 ? blade * disk(re) : 0.0);
     }
   };
-  Pitching pitching[3];
+  Pitching pitching[3]; ///< by the axis of the torque
 };
 
 /// Shadow of the body along a direction in the body frame, in units of d^2.

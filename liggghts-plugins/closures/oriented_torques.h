@@ -33,6 +33,7 @@ inline double rate_around(const HalfStep& half_step, int i, double d, bool newto
 /// Dennis et al.; implicit in the spin along each mode of rotation. Plain spheres go through RotationalDrag unchanged.
 template <class Stress> class OrientedRotationalDrag : public RotationalDrag<Stress> {
  public:
+  /// Reads density and stress scale of `fluid`.
   explicit OrientedRotationalDrag(const Rheology& fluid)
       : RotationalDrag<Stress>(fluid), stress_(fluid), density_(fluid.density), newtonian_(fluid.newtonian()) {}
 
@@ -95,6 +96,7 @@ template <class Stress> class OrientedRotationalDrag : public RotationalDrag<Str
 /// A torque on bodies that are no spheres, explicit, in the body frame: of(i, shape, frame) gives it.
 class BodyTorque : public Effect {
  public:
+  /// Needs drag_torque, see requires_slot().
   explicit BodyTorque(const Rheology& fluid) : fluid_(fluid) {}
   bool is_torque() const override { return true; }
   /// A spin that nothing damps would grow.
@@ -102,6 +104,7 @@ class BodyTorque : public Effect {
   void prepare(const ShapeCatalogue& shapes) override { kinds_.prepare(shapes); }
 
  protected:
+  /// Calls of(i, shape, frame) for every such body of the group and adds its torque [N m], body frame.
   template <class Torque> void for_each(const HalfStep& half_step, Torque&& of) {
     std::fill_n(total_, 3, 0.0);
     for (int i = 0; i < half_step.count; ++i) {
@@ -117,14 +120,15 @@ class BodyTorque : public Effect {
       }
     }
   }
-  Rheology fluid_;
-  OrientedKinds kinds_;
+  Rheology fluid_;      ///< as given
+  OrientedKinds kinds_; ///< of the scene
 };
 
 /// Torque by the strain e of the flow: pi mu d^3 f_R S:e, the rest of Jeffery's (1922) beside the rotational drag. With
 /// the same mu and f_R as that one, a body that is free to turn has Jeffery's spin w_f/2 + K_rot^-1 S:e at any Re_r.
 template <class Stress> class StrainTorque : public BodyTorque {
  public:
+  /// Viscosity by the stress scale of `fluid`.
   explicit StrainTorque(const Rheology& fluid) : BodyTorque(fluid), stress_(fluid) {}
   const char* name() const override { return "strain_torque"; }
   unsigned needs() const override {

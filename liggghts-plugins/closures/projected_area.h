@@ -16,6 +16,7 @@ double projected_area(const std::vector<shape::Sphere>& spheres, const Eigen::Ve
 /// The same, tabulated once per shape over the half sphere of directions and interpolated.
 class ProjectedAreaTable {
  public:
+  /// `spheres` in the body frame [m].
   explicit ProjectedAreaTable(const std::vector<shape::Sphere>& spheres);
   /// direction: body frame, any length > 0 [m2].
   double at(const Eigen::Vector3d& direction) const;

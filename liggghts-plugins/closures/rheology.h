@@ -37,22 +37,24 @@ inline double cross_coefficient(double n) {
 /// Herschel-Bulkley parameters: tau = yield_stress + consistency * rate^index. SI. The last three weigh the terms of
 /// the stress scale around a particle, see HerschelBulkleyStress and CrossStress.
 struct Rheology {
-  double yield_stress = 0.0; ///< tau0 [Pa], >= 0
-  double consistency = 0.0;  ///< k [Pa s^n], > 0; the viscosity where index is 1
-  double index = 1.0;        ///< n [-], > 0
-  double density = 0.0;      ///< rho_f [kg/m3], > 0
-  double viscous_weight = 1.0;
-  double yield_weight = kAnsleySmith;
-  double cross_weight = 0.0;
+  double yield_stress = 0.0;          ///< tau0 [Pa], >= 0
+  double consistency = 0.0;           ///< k [Pa s^n], > 0; the viscosity where index is 1
+  double index = 1.0;                 ///< n [-], > 0
+  double density = 0.0;               ///< rho_f [kg/m3], > 0
+  double viscous_weight = 1.0;        ///< x, of the viscous term [-]
+  double yield_weight = kAnsleySmith; ///< w, of the yield stress [-]
+  double cross_weight = 0.0;          ///< c, of the cross term [-]; 0: none
 
+  /// True if no power and no yield stress is to be evaluated.
   bool newtonian() const { return yield_stress == 0.0 && index == 1.0; }
+  /// True if CrossStress applies.
   bool crossed() const { return yield_stress > 0.0 && cross_weight > 0.0; }
 };
 
 /// A function of one speed and its derivative.
 struct ValueAndSlope {
-  double value;
-  double slope;
+  double value; ///< of the function
+  double slope; ///< derivative with respect to the speed
 };
 
 /// Stress that the flow around a particle works against at a shear rate U/d: X = x k rate^n + w tau0 [Pa] with x = 1
@@ -63,10 +65,12 @@ struct HerschelBulkleyStress {
   double consistency; ///< x k [Pa s^n]
   double index;       ///< n [-]
 
+  /// At the weights of `fluid`.
   explicit HerschelBulkleyStress(const Rheology& fluid)
       : yield(fluid.yield_weight * fluid.yield_stress), consistency(fluid.viscous_weight * fluid.consistency),
         index(fluid.index) {}
 
+  /// X(0) [Pa].
   double at_rest() const { return yield; }
   /// X(speed/length) and dX/d speed; speed > 0.
   ValueAndSlope operator()(double speed, double inverse_length) const {
@@ -83,11 +87,14 @@ struct CrossStress {
   double cross;      ///< c sqrt(k tau0) [Pa s^(n/2)]
   double half_index; ///< n/2 [-]
 
+  /// At the weights of `fluid`.
   explicit CrossStress(const Rheology& fluid)
       : yield(fluid.yield_weight * fluid.yield_stress), viscous(fluid.viscous_weight * fluid.consistency),
         cross(fluid.cross_weight * std::sqrt(fluid.consistency * fluid.yield_stress)), half_index(0.5 * fluid.index) {}
 
+  /// X(0) [Pa].
   double at_rest() const { return yield; }
+  /// X(speed/length) and dX/d speed; speed > 0.
   ValueAndSlope operator()(double speed, double inverse_length) const {
     const double root = std::pow(speed * inverse_length, half_index);
     const double first = viscous * root * root, second = cross * root;
@@ -99,9 +106,12 @@ struct CrossStress {
 struct NewtonianStress {
   double viscosity; ///< [Pa s]
 
+  /// The viscosity is the consistency of `fluid`.
   explicit NewtonianStress(const Rheology& fluid) : viscosity(fluid.consistency) {}
 
+  /// No yield stress.
   double at_rest() const { return 0.0; }
+  /// X(speed/length) and dX/d speed.
   ValueAndSlope operator()(double speed, double inverse_length) const {
     const double slope = viscosity * inverse_length;
     return {slope * speed, slope};

@@ -45,6 +45,7 @@ template <class Stress> struct SpinStress {
     return {viscosity * spin, viscosity + spin * spin * (x.slope - viscosity) / (rate * rate)};
   }
 };
+/// The same without a power: the viscosity does not depend on the slip.
 template <> struct SpinStress<NewtonianStress> {
   NewtonianStress stress;
   double slip_rate;

@@ -13,8 +13,10 @@
 
 namespace eccentra::closures {
 
+/// Torque against the spin relative to the fluid, of Dennis et al. (1980): implicit in the spin.
 template <class Stress> class RotationalDrag : public Effect {
  public:
+  /// Reads density and stress scale of `fluid`.
   explicit RotationalDrag(const Rheology& fluid)
       : stress_(fluid), density_(fluid.density), newtonian_(fluid.newtonian()) {}
 

@@ -5,6 +5,7 @@
 
 namespace eccentra::closures {
 
+/// Options of the keyword `screen` of fix fluid/force.
 struct ScreenOptions {
   double tolerance = 0.0; ///< 0: no screen
   int steps = 1000;       ///< length of the measurement

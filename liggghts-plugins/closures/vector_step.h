@@ -14,7 +14,7 @@ namespace eccentra::closures {
 
 /// Resistance along each axis at one speed, and its derivative with respect to the speed.
 struct VectorResistance {
-  Eigen::Array3d value, slope;
+  Eigen::Array3d value, slope; ///< [N], and with respect to the speed [kg/s]
 };
 
 /// What a step leaves.

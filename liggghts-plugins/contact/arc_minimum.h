@@ -16,27 +16,30 @@ namespace eccentra::contact {
 /// A rim of a posed disk: points about its centre by their angle.
 struct Rim {
   Eigen::Vector3d centre, x, y; ///< of the rim; its half axes [m]
+  /// `rim` is 0 for the one at +z of the disk, 1 for the other.
   Rim(const PosedCore& disk, int rim) {
     const ContactCore& core = *disk.core;
     centre = (rim == 0 ? core.half.z() : -core.half.z()) * disk.rotation.col(2);
     x = core.half.x() * disk.rotation.col(0);
     y = core.half.x() * disk.rotation.col(1);
   }
+  /// Point at an angle [rad].
   Eigen::Vector3d at(double angle) const { return centre + std::cos(angle) * x + std::sin(angle) * y; }
+  /// Derivative of at() with respect to the angle [m].
   Eigen::Vector3d tangent(double angle) const { return std::cos(angle) * y - std::sin(angle) * x; }
 };
 
 /// A point on a rim, its distance from something and the normal there, from that something to the point.
 struct RimPoint {
-  Eigen::Vector3d point;
-  shape::CoreDistance at;
+  Eigen::Vector3d point;  ///< [m], world axes, from the body's centre
+  shape::CoreDistance at; ///< distance [m] and normal
 };
 
 /// A point of a rim as something else sees it: with the slope of the distance along the rim, and how fast that changes.
 struct RimSample {
-  RimPoint point;
-  double slope; ///< [-]
-  double rate;  ///< per radian; NaN where it is not known
+  RimPoint point; ///< with its distance
+  double slope;   ///< [-]
+  double rate;    ///< per radian; NaN where it is not known
 };
 
 /// The closest point between two angles, at the first of which the distance falls and at the second of which it rises:
@@ -85,8 +88,8 @@ inline double chord_root(double low, double slope_low, double high, double slope
 
 /// A point at which the distance along an arc is least, or greatest.
 struct ArcExtreme {
-  RimPoint point;
-  bool closest;
+  RimPoint point; ///< with its distance
+  bool closest;   ///< the distance is least there
 };
 
 /// Adds all of them between two angles, in order, as far as they can be told apart in so many equal pieces of the arc.
@@ -119,8 +122,8 @@ void extremes_on_arc(double low, double slope_low, double high, double slope_hig
 /// u falls being one of the former: of the potential S (1 - u_0 / S) (1 - u_1 / S), u_0 and u_1 at the ends, what each
 /// closest point counts (farthest ones: minus that), and what the springs of the ends lose.
 struct ArcSpring {
-  double share = 0;
-  double loss[2] = {0, 0};
+  double share = 0;        ///< what each closest point counts [-]
+  double loss[2] = {0, 0}; ///< part of the springs of the ends that is lost [-]
 
   /// `slope` of the distance at the ends, both the way in which the arc runs.
   ArcSpring(const double (&end_overlap)[2], const double (&slope)[2], const std::vector<ArcExtreme>& extremes,

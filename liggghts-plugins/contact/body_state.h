@@ -12,13 +12,13 @@ typedef double Double4 __attribute__((vector_size(32)));
 /// What a contact asks of a body, together: arrays of positions, velocities, masses ... of which each contact needs one
 /// row cost a cache line each. The orientation is all zero for a round body, whose own nobody sees. Fourth lanes are 0.
 struct alignas(64) BodyState {
-  double x[3];     ///< centre of mass [m]
-  double mass;     ///< [kg]
-  double v[3];     ///< [m/s]
-  int type;        ///< atom type
-  bool held;       ///< cannot move at all
-  double omega[3]; ///< [rad/s]
-  double unused = 0;
+  double x[3];                    ///< centre of mass [m]
+  double mass;                    ///< [kg]
+  double v[3];                    ///< [m/s]
+  int type;                       ///< atom type
+  bool held;                      ///< cannot move at all
+  double omega[3];                ///< [rad/s]
+  double unused = 0;              ///< keeps the columns aligned
   Double4 column[3] = {};         ///< of the rotation body to world
   double inverse_inertia[6] = {}; ///< of the inertia tensor per unit mass, world frame: xx yy zz xy xz yz [1/m2]
 

@@ -17,13 +17,15 @@ namespace eccentra::contact {
 constexpr int contact_id(int a, int b) {
   return a << 16 | b;
 }
+/// Index of A's sub-sphere in an id.
 inline int contact_sphere_a(int id) {
   return id >> 16;
 }
+/// Index of B's sub-sphere in an id.
 inline int contact_sphere_b(int id) {
   return id & 0xffff;
 }
-constexpr int max_surface_spheres = 1 << 15;
+constexpr int max_surface_spheres = 1 << 15; ///< of a body, so that two indices are one id
 
 /// Where body B lies in the body frame of A. Single precision: this only preselects.
 struct RelativePose {
@@ -63,6 +65,7 @@ class CandidateStore {
   /// Lists may be read in whole chunks of so many ids.
   static constexpr int chunk = 8;
 
+  /// Empties the store and keeps its memory.
   void clear() {
     ids_.clear();
     used_ = 0;
@@ -77,8 +80,10 @@ class CandidateStore {
     ids_.resize(needed);
     return first;
   }
+  /// The list that begins at `index`.
   int* at(int index) { return ids_.data() + index; }
   const int* at(int index) const { return ids_.data() + index; }
+  /// Memory [bytes].
   std::size_t bytes() const { return ids_.capacity() * sizeof(int); }
 
  private:
@@ -110,9 +115,9 @@ class CandidateSearch {
 
 /// Two shapes and how their bodies lie to each other, for the two functions below.
 struct PosedShapes {
-  const SurfaceSpheres &a, &b;
-  float extra; ///< added to the sum of two radii [m]
-  const RelativePose& pose;
+  const SurfaceSpheres &a, &b; ///< of the two bodies
+  float extra;                 ///< added to the sum of two radii [m]
+  const RelativePose& pose;    ///< of B relative to A
 };
 
 /// Writes to `hits` (room for count) those of `ids` that overlap or are closer than `margin` [m]; returns how many.

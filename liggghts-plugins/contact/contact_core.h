@@ -24,33 +24,41 @@ enum class SolidKind { none, box, polyhedron, flat, disk };
 struct ContactCore {
   /// A ball about the centre, of radius 0: a plain sphere, whose atom has the radius.
   ContactCore();
+  /// Core of a rounded body, in its body frame.
   explicit ContactCore(const shape::RoundedHull& hull);
   /// Any convex core; a triangle of a mesh is a polygon with radius 0.
   ContactCore(const shape::ConvexCore& core, double radius);
   /// A union of spheres.
   ContactCore(const std::vector<Eigen::Vector3d>& centres, const std::vector<double>& radii);
 
-  SolidKind solid = SolidKind::none;
-  double radius = 0;         ///< of the rounding [m]; with `none` the largest of the points'
-  double contact_radius = 0; ///< in Hertz's law [m]
-  double bound = 0;          ///< of the core with its rounding, about the centre [m]
+  SolidKind solid = SolidKind::none; ///< form of the core
+  double radius = 0;                 ///< of the rounding [m]; with `none` the largest of the points'
+  double contact_radius = 0;         ///< in Hertz's law [m]
+  double bound = 0;                  ///< of the core with its rounding, about the centre [m]
 
-  int points = 0;
-  std::vector<double> x, y, z;      ///< of the points, body frame, padded with the last
-  std::vector<double> point_radius; ///< with `none`
-  std::vector<std::array<int, 2>> edges;
-  Eigen::Vector3d half = {0, 0, 0}; ///< of a box, its half edges; of a disk, its radius twice and its half height
-  shape::ConvexCore polyhedron;     ///< of polyhedra and flat cores
-  int ring = 0;                     ///< points on each rim of a disk
-  int rims = 0;                     ///< of a disk: 1 or 2
+  int points = 0;                        ///< number of points
+  std::vector<double> x, y, z;           ///< of the points, body frame, padded with the last
+  std::vector<double> point_radius;      ///< with `none`
+  std::vector<std::array<int, 2>> edges; ///< pairs of points
+  Eigen::Vector3d half = {0, 0, 0};      ///< of a box, its half edges; of a disk, its radius twice and its half height
+  shape::ConvexCore polyhedron;          ///< of polyhedra and flat cores
+  int ring = 0;                          ///< points on each rim of a disk
+  int rims = 0;                          ///< of a disk: 1 or 2
 
+  /// Rims, faces and side are those of a flat cylinder.
   bool is_disk() const { return solid == SolidKind::disk; }
+  /// Number of arcs on all rims.
   int arcs() const { return ring * rims; }
   bool has_axis() const { return rims == 2; } ///< a disk whose side is a surface of its own
+  /// Number of line features.
   int lines() const { return is_disk() ? arcs() + has_axis() : static_cast<int>(edges.size()); }
+  /// Number of a line among the features.
   int line_feature(int line) const { return points + line; }
+  /// Number of a disk's axis among the features.
   int axis_feature() const { return points + arcs(); }
+  /// Number of the solid among the features.
   int solid_feature() const { return points + lines(); }
+  /// Length of the arrays of points, with their padding.
   int padded() const { return static_cast<int>(x.size()); }
 
  private:
@@ -61,14 +69,17 @@ struct ContactCore {
 
 /// A core where its body is in a step: points in world axes about the body's centre.
 struct PosedCore {
-  const ContactCore* core = nullptr;
+  const ContactCore* core = nullptr;                      ///< in the body frame
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity(); ///< body to world
-  std::vector<double> x, y, z;
+  std::vector<double> x, y, z;                            ///< of the points [m]
 
+  /// Turns `of` by `turn`, body to world.
   void pose(const ContactCore& of, const Eigen::Matrix3d& turn);
+  /// Point `k` [m].
   Eigen::Vector3d point(int k) const { return {x[k], y[k], z[k]}; }
   /// Greatest `direction` . x over the core.
   double reach_along(const Eigen::Vector3d& direction) const;
+  /// A point of the core that reaches furthest along `direction` [m].
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 };
 
@@ -80,9 +91,11 @@ shape::CoreDistance distance_to(const PosedCore& posed, const Eigen::Vector3d& p
 constexpr int feature_id(int a, int b) {
   return a << 16 | b;
 }
+/// A's feature in an id.
 inline int feature_a(int id) {
   return id >> 16;
 }
+/// B's feature in an id.
 inline int feature_b(int id) {
   return id & 0xffff;
 }

@@ -13,6 +13,7 @@ namespace eccentra::contact {
 /// Contacts between sub-spheres of bodies A and B, as structure of arrays; world frame, SI. Everything is seen from A:
 /// B's torque about its own centre of mass, at `offset` from A's, is offset x force - torque.
 template <class RowType> struct ContactRows {
+  /// One quantity of all contacts.
   using Row = RowType;
   static constexpr int kMaterials = 3;
 
@@ -26,7 +27,7 @@ template <class RowType> struct ContactRows {
   Row material[kMaterials]; ///< properties of the pair of materials, as the contact model orders them
   Row friction;             ///< Coulomb coefficient
   // In and out: tangential displacement [m].
-  Row history[3];
+  Row history[3]; ///< world frame
   // Between the passes (or in), and out.
   Row normal[3];        ///< unit, from B to A
   Row overlap;          ///< [m]
@@ -43,6 +44,7 @@ template <class RowType> struct ContactRows {
 /// Vector loops run over whole multiples of this, so that rounding does not depend on a contact's place in its block.
 constexpr int contact_width = 8;
 
+/// The next multiple of contact_width.
 constexpr int whole_vectors(int count) {
   return (count + contact_width - 1) / contact_width * contact_width;
 }
@@ -117,7 +119,7 @@ enum class FrictionBound {
 
 /// The choices of a law of contacts beside its model.
 struct ForceChoice {
-  FrictionBound bound = FrictionBound::elastic;
+  FrictionBound bound = FrictionBound::elastic; ///< of the tangential force
   /// Velocities are those of the middle of the step, half a step before the positions; true: the displacement of the
   /// step is that of the contact point there. Else it is what these velocities give at the contact point of the end,
   /// which in a corner creeps by O(dt) (Vyas et al. 2025).

@@ -15,8 +15,8 @@ enum class DampingLaw { stock, paper };
 
 /// What a user chooses beside the model itself.
 struct DampingChoice {
-  DampingLaw law = DampingLaw::stock;
-  bool tangential = true; ///< a tangential damper
+  DampingLaw law = DampingLaw::stock; ///< of the normal damper
+  bool tangential = true;             ///< a tangential damper
 };
 
 /// A model turns overlap, radii, masses and materials of contacts into kn, kt, gamma_n and gamma_t.
@@ -29,12 +29,15 @@ struct ContactModel {
   double exponent;
   /// The kernel over contacts 0..n-1, for blocks of both sizes.
   void (*in_block)(ContactBlock&, int n, const DampingChoice&);
+  /// The same kernel over larger blocks.
   void (*in_large_block)(LargeContactBlock&, int n, const DampingChoice&);
 
+  /// Calls the kernel.
   void stiffness(ContactBlock& c, int n, const DampingChoice& damping) const { in_block(c, n, damping); }
   void stiffness(LargeContactBlock& c, int n, const DampingChoice& damping) const { in_large_block(c, n, damping); }
 };
 
+/// All models, in the order of the table.
 const std::vector<ContactModel>& contact_models();
 /// Null if there is no such row.
 const ContactModel* find_contact_model(const std::string& name);

@@ -14,6 +14,7 @@ class EccentricBatch {
  public:
   static constexpr int kCapacity = 64; ///< a multiple of the lanes; all of it stays in the first-level cache
 
+  /// True if evaluate() must come before the next add().
   bool full() const { return size_ == kCapacity; }
   /// A side: particle index, orientation (w x y z, body to world), radius, direction of the force on the particle,
   /// spin, depth in units of the radius, normal force and normal damping [N s/m].

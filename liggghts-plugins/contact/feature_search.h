@@ -13,7 +13,9 @@ namespace eccentra::contact {
 /// other, as feature_id in ascending order. Returns the relative motion [m] up to which no other features can touch.
 class FeatureSearch {
  public:
+  /// The search; the features replace those of the search before.
   double search(const BodyPair& pair, double skin);
+  /// Features of the last search.
   const std::vector<int>& found() const { return found_; }
 
  private:

@@ -19,9 +19,9 @@ inline double spring_energy(double overlap) {
 /// Of the potential u_E prod_k (1 - q_k)^power, q_k = u_k / u_E: what the force of the line's spring counts, and what
 /// those of the ends lose.
 template <int ends, int power = 1> struct HandOver {
-  double line = 1;
-  double loss[ends] = {};
-  bool any = false; ///< an end touches
+  double line = 1;        ///< what the force of the line counts [-]
+  double loss[ends] = {}; ///< part of the forces of the ends that is lost [-]
+  bool any = false;       ///< an end touches
 
   /// `overlap` of the line > 0; of the ends, <= 0 where they do not touch.
   HandOver(double overlap, const double (&end_overlap)[ends]) {

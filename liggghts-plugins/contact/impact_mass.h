@@ -12,7 +12,8 @@ namespace eccentra::contact {
 /// Impacts of bodies A and B along a normal, as structure of arrays; world frame, SI. One row for a pair of bodies
 /// whose contacts have one normal, else one for each contact. No more than contacts in a block.
 struct ImpactRows {
-  static constexpr int capacity = ContactBlock::capacity;
+  static constexpr int capacity = ContactBlock::capacity; ///< contacts
+  /// One quantity of all impacts, with room for a whole vector behind.
   using Row = double[capacity + contact_width];
 
   // In: what all contacts of a pair have in common.

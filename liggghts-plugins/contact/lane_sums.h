@@ -7,6 +7,7 @@
 
 namespace eccentra::contact {
 
+/// Eight values that are computed together.
 using EightLanes = Eigen::Array<double, 8, 1>;
 
 /// The sums of a, b, c and d.

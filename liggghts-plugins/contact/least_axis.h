@@ -10,8 +10,8 @@ namespace eccentra::contact {
 /// The cores are `separation` [m] apart along `normal`, which points from B to A. A negative value is the distance by
 /// which A must move along the normal until the cores do not overlap.
 struct SeparatingAxis {
-  double separation;
-  Eigen::Vector3d normal;
+  double separation;      ///< [m]
+  Eigen::Vector3d normal; ///< unit, from B to A
 };
 
 /// Separation along a unit vector from B to A; `offset` leads from A's centre to B's.

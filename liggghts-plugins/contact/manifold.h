@@ -23,6 +23,7 @@ struct Contact {
   double reach;           ///< distance at which they touch: sum of the two radii [m]
   double radius_a;        ///< of A's rounding there [m]
   double weight;          ///< of the spring
+  /// Depth [m]; > 0 where they touch.
   double overlap() const { return reach - distance; }
   /// From A's centre to the middle of the overlap.
   Eigen::Vector3d contact_point() const { return arm - (radius_a - overlap() / 2) * normal; }
@@ -30,14 +31,14 @@ struct Contact {
 
 /// A body in a pair: `extra` is added to the radius of its rounding (plain spheres).
 struct ContactBody {
-  const PosedCore* posed;
-  double extra = 0;
+  const PosedCore* posed; ///< must outlive the pair
+  double extra = 0;       ///< [m]
 };
 
 /// Two bodies; `offset` leads from A's centre to B's.
 struct BodyPair {
-  ContactBody a, b;
-  Eigen::Vector3d offset;
+  ContactBody a, b;       ///< seen from A
+  Eigen::Vector3d offset; ///< [m], world axes
 };
 
 /// With u(d) = (reach - d)^(5/2), a Hertz spring's potential but for its stiffness, the potential of a pair is
@@ -63,7 +64,9 @@ class Manifolds {
   /// Finds the contacts of all pairs.
   void evaluate();
 
+  /// Number of pairs.
   int pairs() const { return static_cast<int>(pairs_.size()); }
+  /// Of all pairs, one after the other.
   const std::vector<Contact>& contacts() const { return contacts_; }
   /// A pair's contacts are first(pair) .. first(pair + 1) - 1, ids ascending.
   int first(int pair) const { return first_[pair]; }

@@ -16,8 +16,10 @@ namespace eccentra::contact {
 /// Rows of doubles, each of the same length and aligned, that grow together.
 template <int rows> class LaneRows {
  public:
+  /// Row `k`, aligned to a whole vector.
   double* row(int k) { return values_.get() + static_cast<std::size_t>(k) * length_; }
   const double* row(int k) const { return values_.get() + static_cast<std::size_t>(k) * length_; }
+  /// Lanes that each row has room for.
   int length() const { return length_; }
   /// Room for `count` and a whole vector more; keeps what is there.
   void reserve(int count) {
@@ -46,9 +48,11 @@ template <int rows> class LaneRows {
 /// Points and boxes, both in the box's frame.
 class BoxLanes {
  public:
+  /// Point, half edges, normal and distance, each in the frame of the box [m].
   enum Row { px, py, pz, hx, hy, hz, nx, ny, nz, distance, row_count };
-  int count = 0;
+  int count = 0; ///< lanes in use
 
+  /// `point` from the centre of the box, and its half edges [m].
   void add(const Eigen::Vector3d& point, const Eigen::Vector3d& half) {
     rows_.reserve(count + 1);
     for (int k = 0; k < 3; ++k) {
@@ -57,7 +61,9 @@ class BoxLanes {
     }
     ++count;
   }
+  /// A value of a lane, after evaluate().
   double at(Row row, int lane) const { return rows_.row(row)[lane]; }
+  /// Unit normal of a lane, from box to point.
   Eigen::Vector3d normal(int lane) const { return {at(nx, lane), at(ny, lane), at(nz, lane)}; }
 
   /// Distances and normals; inside, minus the depth under the nearest face.
@@ -93,8 +99,9 @@ class BoxLanes {
 /// Points and flat cylinders about the z axis, both in the cylinder's frame.
 class DiskLanes {
  public:
+  /// Point, radius, half height, normal and distance, each in the frame of the cylinder [m].
   enum Row { px, py, pz, wide, high, nx, ny, nz, distance, row_count };
-  int count = 0;
+  int count = 0; ///< lanes in use
 
   /// `half`: radius twice, half height.
   void add(const Eigen::Vector3d& point, const Eigen::Vector3d& half) {
@@ -105,7 +112,9 @@ class DiskLanes {
     rows_.row(high)[count] = half.z();
     ++count;
   }
+  /// A value of a lane, after evaluate().
   double at(Row row, int lane) const { return rows_.row(row)[lane]; }
+  /// Unit normal of a lane, from cylinder to point.
   Eigen::Vector3d normal(int lane) const { return {at(nx, lane), at(ny, lane), at(nz, lane)}; }
 
   /// Distances and normals; inside, minus the depth under the nearer of face and side.
@@ -137,6 +146,7 @@ class DiskLanes {
 /// Pairs of straight edges a + s u and b + t v, s and t in [0, 1].
 class EdgeLanes {
  public:
+  /// The two edges, the normal, the distance and where on each edge the two are closest.
   enum Row {
     ax,
     ay,
@@ -163,8 +173,9 @@ class EdgeLanes {
     at3, // where on the other edge
     row_count
   };
-  int count = 0;
+  int count = 0; ///< lanes in use
 
+  /// Edges a + s u and b + t v [m].
   void add(const Eigen::Vector3d& a, const Eigen::Vector3d& u, const Eigen::Vector3d& b, const Eigen::Vector3d& v) {
     rows_.reserve(count + 1);
     for (int k = 0; k < 3; ++k) {
@@ -175,9 +186,12 @@ class EdgeLanes {
     }
     ++count;
   }
+  /// A value of a lane, after evaluate().
   double at(int row, int lane) const { return rows_.row(row)[lane]; }
+  /// Three values from `row` on.
   Eigen::Vector3d vector(int row, int lane) const { return {at(row, lane), at(row + 1, lane), at(row + 2, lane)}; }
 
+  /// Distances, normals and places of closest approach.
   void evaluate() {
     if (count == 0)
       return;

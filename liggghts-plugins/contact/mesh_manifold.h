@@ -13,8 +13,9 @@ namespace eccentra::contact {
 /// Corners from the body's centre [m]; edge k joins corners k and k + 1. An edge is active in one of the triangles that
 /// share it, and in none where a plane goes on across it.
 struct MeshTriangle {
-  std::array<Eigen::Vector3d, 3> corner;
-  std::array<bool, 3> edge_active;
+  std::array<Eigen::Vector3d, 3> corner; ///< from the body's centre [m]
+  std::array<bool, 3> edge_active;       ///< by the number of an edge
+  /// Unit, by the order of the corners.
   Eigen::Vector3d normal() const;
   /// The point closest to another.
   Eigen::Vector3d closest(const Eigen::Vector3d& point) const;
@@ -31,8 +32,8 @@ class MeshManifold {
 
   /// Normals lead out of the mesh; the body is A of each contact.
   struct Touch {
-    int triangle;
-    Contact contact;
+    int triangle;    ///< index of the triangle
+    Contact contact; ///< of the body with it
   };
   MeshManifold();
   /// Valid until the next call.

@@ -11,7 +11,9 @@ namespace eccentra::contact {
 
 /// On A of each pair, torque about its centre of mass [N, N m].
 struct PairForces {
+  /// One component of all pairs.
   using Row = double[ContactBlock::capacity + contact_width];
+  /// [N] and [N m], world frame.
   Row force[3], torque[3];
 };
 

@@ -13,6 +13,7 @@ namespace eccentra::contact {
 
 /// A primitive wall as plain numbers.
 struct PlainWall {
+  /// Copies what the kernels read of `surface`.
   explicit PlainWall(const WallSurface& surface) : plane(surface.is_plane()), radius(surface.radius()) {
     const Eigen::Vector3d at_reference = surface.velocity_at(surface.reference());
     for (int k = 0; k < 3; ++k) {
@@ -25,8 +26,9 @@ struct PlainWall {
     }
   }
 
-  bool plane;
-  double radius;
+  bool plane;    ///< else a cylinder
+  double radius; ///< of the cylinder [m]
+  /// World frame [m, m/s, rad/s], as WallSurface has them; `velocity` is that of the material at `reference`.
   double reference[3], direction[3], across[3], across2[3], velocity[3], omega[3];
 };
 

@@ -103,6 +103,7 @@ inline double along_body_axis(const double* q, int axis, const double* world) {
   return (1 - 2 * (y * y + z * z)) * world[axis] + 2 * (x * y + w * z) * world[j] + 2 * (x * z - w * y) * world[k];
 }
 
+/// Gives a quaternion (not 0) length 1.
 inline void normalise(double* q) {
   const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
   // Within a time step only round-off has to go: there one step of Newton's is exact to the last digit.
@@ -139,6 +140,7 @@ class FreeRotation {
       rate_[k] = std::abs(difference[k]) > symmetry_tolerance * world_rate_ ? difference[k] : 0;
   }
 
+  /// True if all moments of inertia are alike: no torque couples the axes.
   bool spherical() const { return rate_[0] == 0 && rate_[1] == 0; }
   /// 1 / (moment of inertia per unit mass) that all axes of a spherical body share [1/m2].
   double world_rate() const { return world_rate_; }

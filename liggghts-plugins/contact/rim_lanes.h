@@ -16,6 +16,7 @@ namespace eccentra::contact {
 /// distance along the rim and how fast that changes by the angle, as RimSample has them.
 class RimLanes {
  public:
+  /// Inputs of an arc's end, then distance, slope, rise, rate and region as RimEnd has them.
   enum Row {
     px,
     py,
@@ -39,8 +40,9 @@ class RimLanes {
     region, // of the solid that is closest: features with different numbers meet at kinks of the slope
     row_count
   };
-  int count = 0;
+  int count = 0; ///< lanes in use
 
+  /// Point `k` of a rim as one lane.
   void add(const RimOnSolid& rim, int k) {
     rows_.reserve(count + 1);
     Eigen::Vector3d out, along;
@@ -54,13 +56,18 @@ class RimLanes {
     }
     ++count;
   }
+  /// A value of a lane.
   double at(int row, int lane) const { return rows_.row(row)[lane]; }
+  /// Three values from `row` on.
   Eigen::Vector3d vector(int row, int lane) const { return {at(row, lane), at(row + 1, lane), at(row + 2, lane)}; }
+  /// The result of a lane.
   RimEnd end(int lane) const {
     return {at(distance, lane), at(slope, lane), at(rise, lane), at(rate, lane), at(region, lane)};
   }
 
+  /// Evaluates all lanes against flat cylinders.
   void on_disks();
+  /// Evaluates all lanes against boxes.
   void on_boxes();
   /// `solid` of each lane.
   void on_polyhedra(const std::vector<const ContactCore*>& solid);

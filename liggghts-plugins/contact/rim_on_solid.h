@@ -17,10 +17,10 @@ namespace eccentra::contact {
 
 /// Directions of the points on a rim from its centre.
 struct RingDirections {
-  std::array<double, shape::points_on_rim + 1> cosine, sine;           ///< the last is the first
-  std::array<double, shape::points_on_rim> middle_cosine, middle_sine; ///< half a step on
-  static constexpr double step = 2 * M_PI / shape::points_on_rim;
-  double half_sine = std::sin(step / 2), sagitta = 1 - std::cos(step / 2);
+  std::array<double, shape::points_on_rim + 1> cosine, sine;               ///< the last is the first
+  std::array<double, shape::points_on_rim> middle_cosine, middle_sine;     ///< half a step on
+  static constexpr double step = 2 * M_PI / shape::points_on_rim;          ///< between two points [rad]
+  double half_sine = std::sin(step / 2), sagitta = 1 - std::cos(step / 2); ///< of half a step, on a circle of radius 1
   RingDirections() {
     for (int k = 0; k <= shape::points_on_rim; ++k) {
       cosine[k] = std::cos(k % shape::points_on_rim * step);
@@ -32,11 +32,12 @@ struct RingDirections {
     }
   }
 };
-inline const RingDirections ring_directions;
+inline const RingDirections ring_directions; ///< the same for all disks
 
 /// One end of an arc: distance from the solid [m], its slope along the rim, the part of the normal out of the rim's
 /// centre, the change of the slope per radian (NaN: not known), and the number of the solid's feature that is closest.
 struct RimEnd {
+  /// In this order: [m], [-], [-], [1/rad], number.
   double distance, slope, rise, rate, region;
 };
 
@@ -44,6 +45,7 @@ struct RimEnd {
 class RimOnSolid {
  public:
   RimOnSolid() = default;
+  /// `to_disk` leads from the solid's centre to the disk's [m], world axes.
   RimOnSolid(const PosedCore& disk, int rim, const PosedCore& solid, const Eigen::Vector3d& to_disk) : solid_(&solid) {
     const Eigen::Matrix3d turn = solid.rotation.transpose() * disk.rotation;
     const Eigen::Vector3d& half = disk.core->half;
@@ -52,9 +54,12 @@ class RimOnSolid {
     x_ = half.x() * turn.col(0);
     y_ = half.x() * turn.col(1);
   }
+  /// Of the rim [m].
   double radius() const { return radius_; }
 
+  /// Of the rim, in the frame of the solid [m].
   const Eigen::Vector3d& centre() const { return centre_; }
+  /// The other body.
   const ContactCore& solid() const { return *solid_->core; }
 
   /// From the rim's centre to its point k, and as long along the rim there.
@@ -92,6 +97,7 @@ class RimOnSolid {
   /// The arc from point k to the next: angles from its middle, within half a step.
   class Arc {
    public:
+    /// Keeps a reference to the solid of `rim`.
     Arc(const RimOnSolid& rim, int k)
         : core_(*rim.solid_->core), centre_(rim.centre_), inverse_radius_(1 / rim.radius_),
           out_(ring_directions.middle_cosine[k] * rim.x_ + ring_directions.middle_sine[k] * rim.y_),
@@ -114,6 +120,7 @@ class RimOnSolid {
       found.rate *= inverse_radius_;
       return found;
     }
+    /// Slope of the distance along the rim at an angle [-].
     double slope(double angle) const {
       if (!core_.is_disk())
         return (*this)(angle).slope;

@@ -37,14 +37,19 @@ struct LimitedContact {
 /// A growing list whose places are filled in where they lie: one is written per contact and step.
 class ContactList {
  public:
+  /// Forgets all contacts and keeps their memory.
   void clear() { count_ = 0; }
+  /// Number of contacts.
   std::size_t size() const { return count_; }
+  /// The next one, to be filled in.
   LimitedContact& next() {
     if (count_ == places_.size())
       places_.resize(2 * count_ + 64);
     return places_[count_++];
   }
+  /// First contact.
   const LimitedContact* begin() const { return places_.data(); }
+  /// Behind the last contact.
   const LimitedContact* end() const { return places_.data() + count_; }
 
  private:
@@ -52,6 +57,7 @@ class ContactList {
   std::size_t count_ = 0;
 };
 
+/// The contacts of a step and their sweep, as the head of this file describes them.
 class RollingLimiter {
  public:
   /// Forgets all contacts; `particles` is the number of local and ghost particles.

@@ -30,10 +30,13 @@ inline double damping_share(double stiffness, double sum, double force, double w
 /// What many contacts of one pair of bodies see of each other along a normal, by tensors: sums weighted by n n^T.
 class SharedTensors {
  public:
+  /// What a contact sees along its normal.
   struct Sums {
+    /// [N/m], [N] and [N m], weighted by the squares of the cosines between the normals.
     double stiffness = 0, force = 0, work = 0;
     double arm[3] = {0, 0, 0}; ///< weighted by stiffness
   };
+  /// A contact: stiffness [N/m], overlap [m], unit normal and arm from the body's centre [m].
   template <class Vector> void add(double stiffness, double overlap, const Vector& n, const Vector& arm) {
     const double products[6] = {n[0] * n[0], n[1] * n[1], n[2] * n[2], n[0] * n[1], n[0] * n[2], n[1] * n[2]};
     for (int k = 0; k < 6; ++k) {
@@ -45,6 +48,7 @@ class SharedTensors {
         sums_[k].arm[d] += weight * arm[d];
     }
   }
+  /// The sums along a unit vector.
   template <class Vector> Sums along(const Vector& n) const {
     const double products[6] = {n[0] * n[0],     n[1] * n[1],     n[2] * n[2],
                                 2 * n[0] * n[1], 2 * n[0] * n[2], 2 * n[1] * n[2]};
@@ -65,6 +69,7 @@ class SharedTensors {
 
 /// The contacts first..last-1 of a block: those of one pair of bodies, or of a body and a wall.
 struct ContactGroup {
+  /// First contact, and the one after the last.
   int first, last;
 };
 

@@ -17,11 +17,13 @@ namespace eccentra::contact {
 
 /// Eight sub-spheres in structure-of-arrays form, in units of the particle's radius; unused places never touch.
 struct SphereBlock {
+  /// A value of each sub-sphere.
   using Lanes = EightLanes;
   static constexpr int kLanes = Lanes::SizeAtCompileTime;
-  Lanes x, y, z, r;
+  Lanes x, y, z, r; ///< centres and radii
   /// Distance that each reaches in direction d, c . d + r.
   Lanes along(const Eigen::Vector3d& d) const { return x * d[0] + y * d[1] + z * d[2]; }
+  /// The same with the radius.
   Lanes reach(const Eigen::Vector3d& d) const { return along(d) + r; }
 };
 
@@ -69,8 +71,10 @@ inline Eigen::Vector3d carried_moment(const SphereBlock* begin, const SphereBloc
 /// between others on a flat face or a straight edge are never the furthest.
 class SupportTable {
  public:
+  /// Reads the surface sub-spheres of `shape`.
   explicit SupportTable(const shape::ClusterShape& shape);
 
+  /// The sub-spheres of the table, in units of R_eq, body frame.
   const std::vector<shape::Sphere>& corners() const { return corners_; }
   /// Number of corners up to which a test of each is faster than the table.
   bool few() const { return corners_.size() <= static_cast<std::size_t>(kFewCorners); }

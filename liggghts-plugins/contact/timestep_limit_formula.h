@@ -34,6 +34,7 @@ inline double impact_overlap(double exponent, double kn, double at, double mass,
 /// Sums what a body's contacts resist: 6 x 6, translation and rotation of the body, the others held in place.
 class BodyStiffness {
  public:
+  /// Of velocity and angular velocity.
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
   /// Adds a contact at `arm` from the centre of mass [m] with unit normal n. `coupling` is 2 where the partner moves,
@@ -50,6 +51,7 @@ class BodyStiffness {
     ++contacts_;
   }
 
+  /// Number of contacts added.
   int contacts() const { return contacts_; }
 
   /// Largest stable step of the explicit scheme (damping from the half step before) [s]: 2/w (sqrt(1 + z^2) - z) with

@@ -13,7 +13,8 @@ namespace eccentra::contact {
 /// one. Structure of arrays with whole vectors, so that rounding does not depend on the place of a body. Unused places
 /// contain any finite values.
 struct alignas(64) TurningBlock {
-  static constexpr int width = 8;
+  static constexpr int width = 8; ///< bodies of a block
+  /// One quantity of all bodies.
   using Row = double[width];
 
   Row angle[3] = {};    ///< in: rotation vector in world [rad], short enough for turns_in_block()

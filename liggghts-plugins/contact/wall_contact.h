@@ -13,9 +13,9 @@ namespace eccentra::contact {
 
 /// World frame, SI. Vectors that start at the body's centre are free of periodic images.
 struct WallTouch {
-  int atom;                  ///< local index
-  WallHistoryEntry* history; ///< of this contact
-  WallContactKey key;
+  int atom;                      ///< local index
+  WallHistoryEntry* history;     ///< of this contact
+  WallContactKey key;            ///< of this contact
   Eigen::Vector3d normal;        ///< unit, from the wall to the sphere
   Eigen::Vector3d lever;         ///< from the body's centre to the contact point (half the overlap deep)
   Eigen::Vector3d to_wall;       ///< from the body's centre to the wall's surface

@@ -30,6 +30,7 @@ class WallSurface {
     return {Kind::cylinder, point, axis.normalized(), radius};
   }
 
+  /// False for a cylinder.
   bool is_plane() const { return kind_ == Kind::plane; }
   /// A point of the plane, or of the cylinder's axis. Torques on the wall are taken about it.
   const Eigen::Vector3d& reference() const { return reference_; }
@@ -37,7 +38,9 @@ class WallSurface {
   const Eigen::Vector3d& direction() const { return direction_; }
   /// Two unit vectors that span, with direction(), a right-handed frame.
   const Eigen::Vector3d& across() const { return across_; }
+  /// The second of them.
   const Eigen::Vector3d& across2() const { return across2_; }
+  /// Of the cylinder [m].
   double radius() const { return radius_; }
 
   /// Angular velocity about the axis through reference() [rad/s], right-handed along direction().
@@ -45,6 +48,7 @@ class WallSurface {
   /// Velocity of the wall's material [m/s]; its component normal to the wall must be zero, as the wall stays where it
   /// is.
   void set_velocity(const Eigen::Vector3d& velocity) { velocity_ = velocity; }
+  /// Of the wall's material [rad/s], world frame.
   const Eigen::Vector3d& angular_velocity() const { return omega_; }
 
   /// Velocity of the wall's material at point x of the wall.

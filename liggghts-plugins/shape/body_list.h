@@ -9,6 +9,7 @@
 
 namespace eccentra::shape {
 
+/// One line of the list. World frame, SI.
 struct ListedBody {
   int line;                               ///< in the file, from 1
   double place[3];                        ///< of the centre of mass [m]

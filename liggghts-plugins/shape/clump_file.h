@@ -13,8 +13,9 @@
 
 namespace eccentra::shape {
 
+/// Contents of a file of spheres.
 struct Clump {
-  std::vector<Sphere> spheres;
+  std::vector<Sphere> spheres;          ///< in the unit of the file
   std::optional<MassProperties> chosen; ///< if the file contains them; in the frame and unit of the spheres
 };
 

@@ -15,8 +15,8 @@ class RoundedHull;
 
 /// One sub-sphere. Body frame, metres.
 struct Sphere {
-  Eigen::Vector3d centre;
-  double radius;
+  Eigen::Vector3d centre; ///< [m]
+  double radius;          ///< [m]
 };
 
 /// Geometry of the union of a cluster's spheres (overlaps count once). Body frame, SI.
@@ -35,8 +35,10 @@ class ClusterShape {
   /// Takes spheres in any frame and the mass properties in that same frame, and turns both into the body frame.
   ClusterShape(std::string name, std::vector<Sphere> spheres, const MassProperties& properties);
 
+  /// A rounded body, which already has its body frame.
   explicit ClusterShape(const RoundedHull& hull);
 
+  /// Its arguments as typed, or the name of its file.
   const std::string& name() const { return name_; }
   /// The rounded body, or null for a union of spheres.
   const RoundedHull* hull() const { return hull_.get(); }
@@ -68,11 +70,10 @@ class ClusterShape {
   std::shared_ptr<const RoundedHull> hull_;
 };
 
-/// Reads shape arguments as users type them, from arg[first] on: `sphere 1 | sphere 6 | cube N | disk 7|19|48 |
-/// file NAME.clump [scale S] |
-/// stl NAME.stl spheres N|error E [scale S] [mass union|solid] [resolution M]`. `used` becomes the number of arguments
-/// consumed. `diameter` [m] of the sphere of equal volume; <= 0 keeps the size that a file gives. Throws
-/// std::invalid_argument with one sentence that names the word, its value and the remedy.
+/// Reads the arguments of a shape as users type them, from arguments[first] on: the name of a family
+/// (shape_family.h) and its words. `used` becomes the number of arguments read. `diameter` [m] of the sphere of equal
+/// volume; <= 0 keeps the size that a file states. Throws std::invalid_argument with one sentence that names the word,
+/// its value and the remedy.
 ClusterShape make_shape(const std::vector<std::string>& arguments, std::size_t first, std::size_t& used,
                         double diameter);
 

@@ -20,9 +20,10 @@ ConvexCore convex_hull(const std::vector<Eigen::Vector3d>& points);
 /// The hull of at most `vertices` of the points. Each point taken is the one farthest outside of the hull of the
 /// earlier ones.
 struct ThinnedHull {
-  ConvexCore core;
-  double error; ///< largest distance of a point outside of the hull [m]
+  ConvexCore core; ///< the hull, in the frame of the points
+  double error;    ///< largest distance of a point outside of the hull [m]
 };
+/// Of fewer than four points the hull of all; else `vertices` >= 4. Throws as convex_hull().
 ThinnedHull thinned_hull(const std::vector<Eigen::Vector3d>& points, int vertices = max_hull_vertices);
 
 } // namespace eccentra::shape

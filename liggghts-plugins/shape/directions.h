@@ -12,9 +12,10 @@ Eigen::Vector3d fibonacci_direction(int index, int count);
 
 /// A direction and an independent uniform rotation, member `index` of a low-discrepancy sequence in five dimensions.
 struct DirectionAndRotation {
-  Eigen::Vector3d direction;
-  Eigen::Quaterniond rotation;
+  Eigen::Vector3d direction;   ///< unit vector
+  Eigen::Quaterniond rotation; ///< uniform over all rotations
 };
+/// Member `index` >= 0 of the sequence.
 DirectionAndRotation even_direction_and_rotation(int index);
 
 } // namespace eccentra::shape

@@ -14,15 +14,15 @@ namespace eccentra::shape {
 
 /// A point of the surface, body frame [m].
 struct SurfacePoint {
-  Eigen::Vector3d position;
-  Eigen::Vector3d normal; ///< unit, outward
-  int vertex;             ///< of the core, or the point on a disk's rim, that is nearest
+  Eigen::Vector3d position; ///< [m]
+  Eigen::Vector3d normal;   ///< unit, outward
+  int vertex;               ///< of the core, or the point on a disk's rim, that is nearest
 };
 
 /// Triangles whose corners, counter-clockwise from outside, lie on the surface and are shared.
 struct TriangleSurface {
-  std::vector<SurfacePoint> points;
-  std::vector<std::array<int, 3>> triangles;
+  std::vector<SurfacePoint> points;          ///< corners
+  std::vector<std::array<int, 3>> triangles; ///< indices of three corners
 };
 
 /// Flat faces are as large as they are; curved parts have `steps` >= 1 strips across an edge or a rim, whose

@@ -17,8 +17,11 @@ class EccentricityDistribution {
   /// `samples` of equal weight [-]; `least` and `largest` are the extremes, which may lie beyond the samples'.
   EccentricityDistribution(std::vector<double> samples, double least, double largest);
 
+  /// Least value over all contacts.
   double min() const { return min_; }
+  /// Mean over all contacts.
   double mean() const { return mean_; }
+  /// Largest value over all contacts.
   double max() const { return max_; }
   /// Value that the part `probability` in [0, 1] of all contacts does not exceed.
   double quantile(double probability) const;

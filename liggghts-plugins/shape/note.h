@@ -10,9 +10,10 @@ namespace eccentra::shape {
 
 /// A sentence about what was repaired, removed, or is missing.
 struct Note {
-  std::string text;
+  std::string text;    ///< one sentence, without a name in front
   bool warning = true; ///< false: information only
 };
+/// In the order in which they arose.
 using Notes = std::vector<Note>;
 
 } // namespace eccentra::shape

@@ -20,15 +20,15 @@ struct CoreFace {
 /// A straight edge of a core. The face `left` has it counter-clockwise from `from` to `to`, the face `right` clockwise.
 /// A segment's only edge has no faces (-1).
 struct CoreEdge {
-  int from, to;
-  int left, right;
+  int from, to;    ///< vertices
+  int left, right; ///< faces
 };
 
 /// A convex polyhedron, or a convex polygon (two faces back to back), a segment, or a point. Any frame, metres.
 struct ConvexCore {
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<CoreFace> faces;
-  std::vector<CoreEdge> edges;
+  std::vector<Eigen::Vector3d> vertices; ///< corners [m]
+  std::vector<CoreFace> faces;           ///< flat faces
+  std::vector<CoreEdge> edges;           ///< where two faces meet
 
   /// 3 for a polyhedron, 2 for a polygon, 1 for a segment, 0 for a point.
   int dimension() const;
@@ -55,6 +55,7 @@ struct CoreDistance {
   double distance;        ///< [m]; inside a core of three dimensions negative: minus the depth under the nearest face
   Eigen::Vector3d normal; ///< unit, from the closest point to the given point (inside: of the nearest face)
 };
+/// Of a point in the frame of the core.
 CoreDistance distance_to_core(const ConvexCore& core, const Eigen::Vector3d& point);
 CoreDistance distance_to_core(const DiskCore& core, const Eigen::Vector3d& point);
 

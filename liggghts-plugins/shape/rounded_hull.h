@@ -19,25 +19,32 @@ namespace eccentra::shape {
 /// principal axes.
 class RoundedHull {
  public:
+  /// A polyhedron, polygon, segment or point, or a flat cylinder.
   using Core = std::variant<ConvexCore, DiskCore>;
 
   /// Properties of a body in its body frame, for a body that is restored.
   struct Properties {
+    /// [m3], [m2] and [m].
     double volume, surface, contact_radius;
-    Eigen::Vector3d inertia_per_mass;
+    Eigen::Vector3d inertia_per_mass; ///< principal values [m2]
   };
+  /// A body whose core is in the body frame already, with its properties: nothing is computed.
   RoundedHull(std::string name, const Core& core, double radius, const Properties& properties);
   /// Takes the core in any frame (a disk in its own) and transforms it into the body frame. `radius` of the ball [m].
   RoundedHull(std::string name, const Core& core, double radius);
 
+  /// Its arguments as typed.
   const std::string& name() const { return name_; }
+  /// In the body frame.
   const Core& core() const { return core_; }
   /// The core's vertices, faces and edges, or nothing for a disk; body frame.
   const ConvexCore* polyhedron() const { return std::get_if<ConvexCore>(&core_); }
+  /// The flat cylinder, or nothing for a polyhedron.
   const DiskCore* disk() const { return std::get_if<DiskCore>(&core_); }
   double radius() const { return radius_; } ///< of the ball: of all corners and edges [m]
   /// Radius of this body in the contact law of Hertz [m]; the rounding radius unless it is set.
   double contact_radius() const { return contact_radius_; }
+  /// `radius` > 0 [m].
   void set_contact_radius(double radius) { contact_radius_ = radius; }
 
   /// The core's vertices; of a disk, points on its rims, first those above. Each is the centre of a ball of `radius`
@@ -59,8 +66,9 @@ class RoundedHull {
   /// Distance of a point from the core [m]; its distance from the body is `radius` less.
   CoreDistance distance_to_core(const Eigen::Vector3d& point) const;
 
-  /// Area of the shadow along `direction` (any length > 0) [m2], and its mean over all directions.
+  /// Area of the shadow along `direction` (any length > 0) [m2].
   double projected_area(const Eigen::Vector3d& direction) const;
+  /// The mean of projected_area() over all directions [m2].
   double mean_projected_area() const { return surface_ / 4; }
 
  private:

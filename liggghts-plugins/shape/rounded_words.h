@@ -14,20 +14,22 @@ namespace eccentra::shape {
 
 /// A core and the ball that sweeps it.
 struct Swept {
-  RoundedHull::Core core;
-  double radius; ///< [m]
+  RoundedHull::Core core; ///< in any frame
+  double radius;          ///< [m]
 };
 
 /// Bodies of one outer form. The rounding, in (0, 1], is the radius of edges and corners over half the smallest outer
 /// extent.
 struct RoundedForm {
   std::string name; ///< as typed, e.g. "smooth disk aspect 0.3"
+  /// The body at a rounding, in units of the outer form.
   std::function<Swept(double rounding)> body;
   bool own_size; ///< has a size without a diameter
 };
 
 /// `rounding R` or `sphericity S`, and maybe `contact_radius C`, in any order; 0 is not given.
 struct RoundedOptions {
+  /// [-], [-] and [m]; 0: not given.
   double rounding = 0, sphericity = 0, contact_radius = 0;
   double scale = 0; ///< of a file
 };
@@ -45,10 +47,12 @@ RoundedForm form_of_core(std::string name, const ConvexCore& core);
 
 /// The convex hull of a file, for `hull NAME.stl`; VTK, which reads it, lives apart.
 struct HullOfFile {
-  ConvexCore core;
+  ConvexCore core;    ///< of the file
   std::string remark; ///< where the file's body is not convex, or has more vertices than a hull may have
 };
+/// Reads a file and multiplies its lengths by `scale`. Throws std::invalid_argument.
 using HullReader = HullOfFile (*)(const std::string& path, double scale);
+/// For all later shapes of this process.
 void install_hull_reader(HullReader reader);
 /// Null where the program has none.
 HullReader hull_reader();

@@ -14,12 +14,13 @@ namespace eccentra::shape {
 
 /// A shape that has a name in the literature, e.g. "cube 64".
 struct KnownShape {
-  std::vector<std::string> arguments;
-  std::string description;
+  std::vector<std::string> arguments; ///< of the shape, as typed
+  std::string description;            ///< one line for lists
 };
 
 /// A keyword that may follow the arguments of a shape, with one value.
 struct ShapeOption {
+  /// As typed, and one line of help.
   std::string name, help;
 };
 
@@ -31,9 +32,9 @@ struct ShapeFamily {
   /// Makes the shape of the words behind its name, and reads no others. `diameter` [m] is that of the sphere of equal
   /// volume; <= 0: the size that the shape has. `notes` receives notes for the user. Throws std::invalid_argument.
   ClusterShape (*make)(base::OptionReader& words, double diameter, Notes& notes);
-  std::vector<KnownShape> known = {}; ///< for lists; may be empty
-  std::string extensions = {};        ///< of files of this family, e.g. ".clump"; empty: none
-  std::vector<ShapeOption> options = {};
+  std::vector<KnownShape> known = {};    ///< for lists; may be empty
+  std::string extensions = {};           ///< of files of this family, e.g. ".clump"; empty: none
+  std::vector<ShapeOption> options = {}; ///< that may follow its arguments
   /// Arguments of its levels of detail, coarsest first; empty: no levels.
   std::vector<std::vector<std::string>> levels = {};
 };

@@ -10,8 +10,8 @@ namespace eccentra::shape {
 
 /// Bodies of one size: the part of all bodies, and the diameter of the sphere of equal volume [m].
 struct SizeClass {
-  double number;
-  double diameter;
+  double number;   ///< part of the number of all bodies [-]
+  double diameter; ///< of the sphere of equal volume [m]
 };
 
 /// What the parts of a distribution are parts of.

@@ -18,12 +18,13 @@ struct Cap {
 
 /// Half-open arc of a circle of latitude, in radians, begin <= end, within [0, 2 pi].
 struct Arc {
-  double begin, end;
+  double begin, end; ///< [rad]
 };
 
 /// The free part of one sphere of a union.
 class SphereExposure {
  public:
+  /// Sphere `index` of `spheres`.
   SphereExposure(const std::vector<Sphere>& spheres, std::size_t index);
 
   /// True if a single neighbour contains the whole sphere, which then has no free part.

@@ -12,7 +12,7 @@ namespace eccentra::shape {
 
 /// Contents of a text file of spheres.
 struct SphereList {
-  std::vector<Sphere> spheres;
+  std::vector<Sphere> spheres;   ///< in the order of the file, in its unit
   std::vector<std::string> keys; ///< lines that begin with "#:", without these two characters
 };
 

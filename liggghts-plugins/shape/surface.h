@@ -13,22 +13,26 @@
 
 namespace eccentra::shape {
 
+/// A surface of triangles.
 struct Surface {
-  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Eigen::Vector3d> vertices;     ///< [m]
   std::vector<std::array<int, 3>> triangles; ///< counter-clockwise from outside once it is oriented
 };
 
 /// Triangles at each edge, keyed by its two vertices in rising order.
 using EdgeFacets = std::map<std::pair<int, int>, std::vector<int>>;
+/// Counts every facet at its three edges.
 EdgeFacets facets_of_edges(const Surface& surface);
 
 /// Edges with an odd number of facets; a closed surface has none.
 struct OpenEdges {
-  int single = 0;  ///< with one facet
-  int several = 0; ///< with three, five, ...
-  std::array<int, 2> first{-1, -1};
+  int single = 0;                   ///< with one facet
+  int several = 0;                  ///< with three, five, ...
+  std::array<int, 2> first{-1, -1}; ///< vertices of the first of them; -1: there is none
+  /// Number of all.
   int total() const { return single + several; }
 };
+/// Counts the edges of the surface.
 OpenEdges open_edges(const Surface& surface);
 
 /// Removes facets that have a vertex twice; returns their number.
@@ -47,9 +51,9 @@ void drop_unused_vertices(Surface& surface);
 
 /// A connected closed part of a surface.
 struct Shell {
-  std::vector<int> triangles;
-  double volume; ///< negative if its facets face inward
-  int turned;    ///< facets that were turned to face as the others do
+  std::vector<int> triangles; ///< indices into the surface
+  double volume;              ///< negative if its facets face inward
+  int turned;                 ///< facets that were turned to face as the others do
 };
 
 /// Orients the facets of each connected part as those of the larger area, and lists the parts. Facets are

@@ -13,22 +13,23 @@ namespace eccentra::shape {
 
 /// A point of a panel with its share of the area. Lengths in the unit of the body that it was made from.
 struct PanelPoint {
-  Eigen::Vector3d place;
+  Eigen::Vector3d place;  ///< on the surface
   Eigen::Vector3d normal; ///< unit, outward
-  double area;
+  double area;            ///< that it stands for
 };
 
 /// A small part of a surface. Near panels see its points, far ones its centre alone.
 struct Panel {
-  std::vector<PanelPoint> points;
-  int middle;             ///< index of the point nearest to the centre: where the velocity is matched
-  Eigen::Vector3d centre; ///< mean place of the points
-  double area;            ///< sum over the points
-  double extent;          ///< largest distance of a point from the centre
+  std::vector<PanelPoint> points; ///< of the panel
+  int middle;                     ///< index of the point nearest to the centre: where the velocity is matched
+  Eigen::Vector3d centre;         ///< mean place of the points
+  double area;                    ///< sum over the points
+  double extent;                  ///< largest distance of a point from the centre
 };
 
 /// Planes through the origin, normal to the axes, that mirror a surface onto itself.
 using MirrorPlanes = std::array<bool, 3>;
+/// Of the union, or of the surface, in its body frame; to round-off.
 MirrorPlanes mirror_planes(const std::vector<Sphere>& spheres);
 MirrorPlanes mirror_planes(const Surface& surface);
 

@@ -12,7 +12,7 @@ namespace eccentra::shape {
 /// Measures of a union of spheres. Overlaps count once; the walls of enclosed voids belong to the surface, and
 /// the voids do not belong to the volume.
 struct UnionGeometry {
-  MassProperties properties;
+  MassProperties properties; ///< in the frame of the spheres
   /// Area of each sphere that no other sphere covers [m2], in the order of the spheres given.
   std::vector<double> exposed_area;
 };

@@ -23,10 +23,10 @@ enum Quantity : unsigned {
 /// One quantity: its bit, the word for it in scripts and reports, doubles per particle (1 a scalar, 3 a vector, 9 a
 /// tensor by rows), and the value of each where the fluid is clear and at rest.
 struct FlowQuantity {
-  Quantity bit;
-  const char* name;
-  int columns;
-  double at_rest;
+  Quantity bit;     ///< place in a set
+  const char* name; ///< in scripts and reports
+  int columns;      ///< doubles per particle: 1, 3 or 9
+  double at_rest;   ///< of each of them
 };
 
 /// All quantities in the order of their bits, in which they also travel. Every loop over quantities walks this table;
@@ -50,6 +50,7 @@ constexpr int place_of(Quantity bit) {
     ++place;
   return place;
 }
+/// Doubles per particle.
 constexpr int columns_of(Quantity bit) {
   return kFlowQuantities[place_of(bit)].columns;
 }
@@ -86,6 +87,7 @@ inline std::string names_of(unsigned quantities, const char* separator = ", ") {
 /// One value for each quantity, found by the quantity's bit.
 template <class Value> class PerQuantity {
  public:
+  /// The value of a quantity.
   constexpr Value& operator[](Quantity bit) { return values_[place_of(bit)]; }
   constexpr const Value& operator[](Quantity bit) const { return values_[place_of(bit)]; }
 
@@ -96,15 +98,24 @@ template <class Value> class PerQuantity {
 /// Per-atom samples of the flow; rows are local atoms. An array is null where its quantity is not asked for.
 class FluidSamples : public PerQuantity<double*> {
  public:
+  /// Rows of three components.
   using Vectors = double (*)[3];
+  /// One value per atom.
   using Scalars = double*;
+  /// Rows of nine components.
   using Tensors = double (*)[9];
 
+  /// u_f [m/s].
   Vectors velocity() const { return rows<kVelocity>(); }
+  /// alpha [-].
   Scalars fraction() const { return (*this)[kFraction]; }
+  /// grad p_rgh [Pa/m].
   Vectors pressure_gradient() const { return rows<kPressureGradient>(); }
+  /// div tau [N/m3].
   Vectors stress_divergence() const { return rows<kStressDivergence>(); }
+  /// curl u_f [1/s].
   Vectors vorticity() const { return rows<kVorticity>(); }
+  /// d u_r/d x_c by rows [1/s].
   Tensors velocity_gradient() const { return rows<kVelocityGradient>(); }
 
  private:

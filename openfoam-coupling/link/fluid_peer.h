@@ -17,8 +17,8 @@ namespace eccentra::link {
 /// What the fluid side stores with a particle from one coupling step to the next (where it was found); it travels with
 /// the particle between the ranks of DEM and means nothing to DEM. Negative: not found yet.
 struct CellHint {
-  std::int32_t rank = -1;
-  std::int32_t cell = -1;
+  std::int32_t rank = -1; ///< of the fluid side
+  std::int32_t cell = -1; ///< of that rank
 };
 
 /// Doubles of a particle's extent: three vectors, see ParticleArrays.
@@ -26,20 +26,20 @@ constexpr int kExtentDoubles = 9;
 
 /// This rank's particles, one row each. World frame, SI; positions inside the periodic box.
 struct ParticleArrays {
-  std::size_t count = 0;
-  const double (*position)[3] = nullptr;
+  std::size_t count = 0;                    ///< rows
+  const double (*position)[3] = nullptr;    ///< of the centres of mass [m]
   const double* volume = nullptr;           ///< of the solid [m3]
   const double (*impulse)[3] = nullptr;     ///< that the fluid gave since the last coupling step: drag and lifts [N s]
   const double* drag_coefficient = nullptr; ///< integral of beta dt since the last coupling step [kg]
   /// Null where all particles are spheres. Else vectors e_1 e_2 e_3: six points at +-e_k, each with a sixth of the
   /// volume, have the second moments of the body: e_k = sqrt(3 M_kk / V) along principal axis k.
   const double (*extent)[kExtentDoubles] = nullptr;
-  CellHint* cell_hint = nullptr;
+  CellHint* cell_hint = nullptr; ///< in and out
 };
 
 /// Sums over all particles of all ranks, for the balances. World frame, SI.
 struct DemTotals {
-  std::int64_t particles = 0;
+  std::int64_t particles = 0;            ///< in the scene now
   std::int64_t inserted = 0;             ///< by the insertion fixes that the script has at present
   double inserted_mass = 0;              ///< [kg]
   double volume = 0;                     ///< [m3]
@@ -53,7 +53,7 @@ struct DemTotals {
 
 /// How evenly the ranks of DEM were loaded since the last coupling step.
 struct DemLoad {
-  std::int64_t ranks = 1;
+  std::int64_t ranks = 1;         ///< of DEM
   std::int64_t max_particles = 0; ///< of any rank
   double mean_seconds = 0;        ///< that a rank computed, without waiting for others; mean over the ranks [s]
   double max_seconds = 0;         ///< of any rank [s]
@@ -68,8 +68,8 @@ struct CouplingStep {
   std::int64_t steps_done = 0;  ///< DEM steps of the present run
   std::int64_t steps_total = 0; ///< its length
   std::int64_t number = 0;      ///< counted by the socket link, from 1: what belongs together
-  DemTotals totals;
-  DemLoad load;
+  DemTotals totals;             ///< since the run began
+  DemLoad load;                 ///< since the last coupling step
 };
 
 /// What the fluid side writes before the place of a particle: "particle at (x y z)"; the DEM side puts the id into it.

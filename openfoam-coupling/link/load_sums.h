@@ -9,8 +9,10 @@
 
 namespace eccentra::link {
 
+/// Adds up how evenly the ranks of DEM were loaded in a run.
 class LoadSums {
  public:
+  /// Counts the coupling interval that ends with this coupling step.
   void add(const CouplingStep& coupling_step);
   /// One line with a line end: ranks; fullest and busiest rank over the mean. Empty before the first interval.
   std::string table() const;

@@ -15,7 +15,9 @@ namespace eccentra::link {
 /// Waits for a request with short sleeps instead of spinning, because rank 0 may wait for minutes.
 void wait_asleep(MPI_Request& request);
 
+/// Number of this rank.
 int rank_of(MPI_Comm ranks);
+/// Number of ranks.
 int size_of(MPI_Comm ranks);
 
 /// Ends a wait when another rank of this side has failed.
@@ -31,8 +33,9 @@ wire::Bytes on_root(MPI_Comm ranks, const std::function<wire::Bytes()>& work);
 
 /// Numbers of rows per rank, and where each rank's begin.
 struct Shares {
+  /// By rank.
   std::vector<int> count, begin;
-  int total = 0;
+  int total = 0; ///< rows of all ranks
 };
 /// Gathers the numbers on rank 0 (elsewhere the result is empty). Collective.
 Shares gather_shares(MPI_Comm ranks, std::size_t count);
@@ -43,6 +46,7 @@ Shares even_shares(MPI_Comm ranks, std::size_t count);
 /// rows are at the beginning of `all` and stay there: its `mine` is not used. Collective.
 void gather_rows(MPI_Comm ranks, const std::byte* mine, int count, std::size_t row_bytes, const Shares& shares,
                  std::byte* all);
+/// The other of the two.
 void scatter_rows(MPI_Comm ranks, const std::byte* all, const Shares& shares, std::size_t row_bytes, std::byte* mine,
                   int count);
 

@@ -14,16 +14,16 @@ constexpr std::uint32_t kProtocolVersion = 6;
 
 /// A box aligned with the axes [m] and the directions in which it repeats.
 struct Extents {
-  double low[3] = {0, 0, 0};
-  double high[3] = {0, 0, 0};
-  bool periodic[3] = {false, false, false};
+  double low[3] = {0, 0, 0};                ///< [m]
+  double high[3] = {0, 0, 0};               ///< [m]
+  bool periodic[3] = {false, false, false}; ///< it repeats along the axis
 };
 
 /// A Herschel-Bulkley law as a user states it: tau = yield_stress + consistency rate^index [Pa, Pa s^n, -].
 struct FlowCurve {
-  double yield_stress = 0.0;
-  double consistency = 0.0; ///< 0: this side has no such law to compare
-  double index = 0.0;
+  double yield_stress = 0.0; ///< [Pa]
+  double consistency = 0.0;  ///< 0: this side has no such law to compare
+  double index = 0.0;        ///< [-]
 };
 
 /// Names one instant of a coupled run: both sides' checkpoints of it bear the same mark.
@@ -34,12 +34,12 @@ struct CheckpointMark {
 
 /// The DEM side's statement.
 struct DemTerms {
-  std::uint32_t protocol = kProtocolVersion;
-  double length_unit = 1.0;      ///< metres in one unit of length of the script (`units si`: 1)
-  double time_step = 0.0;        ///< of DEM [s]
-  std::int64_t interval = 0;     ///< DEM steps from one coupling step to the next
-  std::int64_t particles = 0;    ///< in the whole domain, now
-  Extents domain;                ///< of the simulation box
+  std::uint32_t protocol = kProtocolVersion; ///< must be the same on both sides
+  double length_unit = 1.0;                  ///< metres in one unit of length of the script (`units si`: 1)
+  double time_step = 0.0;                    ///< of DEM [s]
+  std::int64_t interval = 0;                 ///< DEM steps from one coupling step to the next
+  std::int64_t particles = 0;                ///< in the whole domain, now
+  Extents domain;                            ///< of the simulation box
   unsigned needed = 0;           ///< link::Quantity bits that the closures ask for at the beginning of the run
   bool overlap = false;          ///< the fluid takes its step while DEM runs the same interval
   bool extents = false;          ///< particles come with their extent (clusters), not with their volume alone
@@ -53,15 +53,15 @@ struct DemTerms {
 
 /// The fluid side's statement.
 struct FluidTerms {
-  std::uint32_t protocol = kProtocolVersion;
-  double length_unit = 1.0;   ///< metres in one unit of length of the mesh
-  double time_step = 0.0;     ///< of one coupling step: what the flow advances by [s]
-  Extents domain;             ///< bounding box of the mesh
-  unsigned offered = 0;       ///< link::Quantity bits that it can compute
-  double fluid_density = 0.0; ///< [kg/m3]
-  FlowCurve rheology;         ///< without the regularisation, which is the solver's own
-  bool has_gravity = false;   ///< constant/g exists; the flow itself needs none
-  double gravity[3] = {0, 0, 0};
+  std::uint32_t protocol = kProtocolVersion; ///< must be the same on both sides
+  double length_unit = 1.0;                  ///< metres in one unit of length of the mesh
+  double time_step = 0.0;                    ///< of one coupling step: what the flow advances by [s]
+  Extents domain;                            ///< bounding box of the mesh
+  unsigned offered = 0;                      ///< link::Quantity bits that it can compute
+  double fluid_density = 0.0;                ///< [kg/m3]
+  FlowCurve rheology;                        ///< without the regularisation, which is the solver's own
+  bool has_gravity = false;                  ///< constant/g exists; the flow itself needs none
+  double gravity[3] = {0, 0, 0};             ///< [m/s2]
   std::uint64_t layout = 0; ///< names the mesh and its division among ranks: cell hint hold for one layout
 };
 

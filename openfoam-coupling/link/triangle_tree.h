@@ -10,16 +10,21 @@
 
 namespace eccentra::link {
 
+/// Finds the triangle nearest to a point, through a tree of boxes.
 class TriangleTree {
  public:
+  /// Its corners [m].
   using Triangle = std::array<Eigen::Vector3d, 3>;
+  /// Copies the triangles.
   explicit TriangleTree(std::vector<Triangle> triangles);
 
+  /// Result of a search.
   struct Nearest {
-    int triangle = -1; ///< -1: there is none
-    double distance = 0;
+    int triangle = -1;       ///< -1: there is none
+    double distance = 0;     ///< [m]
     Eigen::Vector3d weights; ///< of its corners at the nearest point
   };
+  /// The nearest triangle.
   Nearest nearest(const Eigen::Vector3d& x) const;
 
  private:

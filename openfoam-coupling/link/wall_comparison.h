@@ -12,6 +12,7 @@
 
 namespace eccentra::link {
 
+/// A face of the mesh. World frame, SI.
 struct PatchFace {
   std::vector<Vector3> corners; ///< in order around the face [m]
   Vector3 velocity{};           ///< that the fluid has there [m/s]
@@ -19,12 +20,13 @@ struct PatchFace {
 
 /// A boundary of the mesh that is neither periodic nor between ranks.
 struct MeshPatch {
-  std::string name;
-  bool wall = false;           ///< nothing flows through it; else an opening
-  bool velocity_known = false; ///< its boundary condition gives the velocity
-  std::vector<PatchFace> faces;
+  std::string name;             ///< as in the mesh
+  bool wall = false;            ///< nothing flows through it; else an opening
+  bool velocity_known = false;  ///< its boundary condition gives the velocity
+  std::vector<PatchFace> faces; ///< of all ranks
 };
 
+/// What the comparison found.
 struct WallVerdict {
   std::string refusal;               ///< one sentence if the two sides describe different walls
   std::string news;                  ///< sentences about walls that one side has alone, one a line

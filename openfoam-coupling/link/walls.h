@@ -10,14 +10,16 @@
 
 namespace eccentra::link {
 
+/// x y z.
 using Vector3 = std::array<double, 3>;
 
 /// A plane or a circular cylinder of the script. World frame, SI.
 struct PrimitiveWall {
+  /// What it is; the values travel.
   enum class Form : std::uint32_t { plane = 0, cylinder = 1 };
-  std::string id;   ///< of the fix
-  std::string name; ///< for the user's eyes: "fix hole (cylinder)"
-  Form form = Form::plane;
+  std::string id;             ///< of the fix
+  std::string name;           ///< for the user's eyes: "fix hole (cylinder)"
+  Form form = Form::plane;    ///< plane or cylinder
   Vector3 point{};            ///< of the plane, or of the cylinder's axis [m]
   Vector3 direction{};        ///< unit normal of the plane, or unit vector along the axis
   double radius = 0;          ///< of the cylinder [m]
@@ -35,9 +37,10 @@ struct TriangleWall {
   std::vector<std::array<Vector3, 3>> velocities; ///< of the corners [m/s]; empty where the mesh is at rest
 };
 
+/// All walls of the DEM side.
 struct WallDescription {
-  std::vector<PrimitiveWall> primitives;
-  std::vector<TriangleWall> meshes;
+  std::vector<PrimitiveWall> primitives; ///< of the script
+  std::vector<TriangleWall> meshes;      ///< meshes of triangles
 };
 
 } // namespace eccentra::link

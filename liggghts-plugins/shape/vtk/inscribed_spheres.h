@@ -10,6 +10,7 @@
 
 namespace eccentra::shape {
 
+/// How many spheres a solid receives, and how finely they are sought.
 struct InscribedOptions {
   int spheres = 0;         ///< stop at this number; 0: `volume_error` alone decides
   double volume_error = 0; ///< stop when the union lacks at most this part of the solid's volume; 0: not used

@@ -10,15 +10,19 @@
 
 namespace eccentra::shape {
 
+/// The same vertices and triangles.
 vtkSmartPointer<vtkPolyData> poly_data(const Surface& surface);
 
 /// Maps the bounding box to size 1 about the origin, because VTK's locators have absolute tolerances that are too large
 /// for bodies of millimetres.
 struct UnitFrame {
+  /// The frame of `surface`.
   explicit UnitFrame(const Surface& surface);
-  Eigen::Vector3d middle;
-  double size; ///< diagonal of the bounding box
+  Eigen::Vector3d middle; ///< of the bounding box
+  double size;            ///< diagonal of the bounding box
+  /// A point in the unit frame.
   Eigen::Vector3d to_unit(const Eigen::Vector3d& point) const { return (point - middle) / size; }
+  /// A surface in the unit frame.
   Surface to_unit(const Surface& surface) const;
 };
 

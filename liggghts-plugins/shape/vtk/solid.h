@@ -14,6 +14,7 @@
 
 namespace eccentra::shape {
 
+/// The closed surface of one solid, as an STL file holds it. Frame of the file, metres.
 class Solid {
  public:
   /// Reads an ASCII or binary STL file and multiplies its lengths by `scale`. What can be repaired in one way only
@@ -22,12 +23,15 @@ class Solid {
   /// of one solid: open, several solids, crossing itself, without volume, and so on.
   Solid(const std::string& path, double scale);
 
+  /// Of the file.
   const std::string& path() const { return path_; }
   /// Repairs and other remarks for the user; one sentence each.
   const Notes& notes() const { return notes_; }
   /// Of the solid, in the frame of the file, exact for its triangles.
   const MassProperties& properties() const { return properties_; }
+  /// Corners [m].
   const std::vector<Eigen::Vector3d>& vertices() const { return surface_.vertices; }
+  /// Counter-clockwise from outside.
   const std::vector<std::array<int, 3>>& triangles() const { return surface_.triangles; }
   Eigen::Vector3d low() const { return low_; }   ///< corner of the bounding box
   Eigen::Vector3d high() const { return high_; } ///< the opposite corner

@@ -21,13 +21,13 @@ enum class Cover { inside, balanced };
 
 /// The arguments of `stl NAME ...`.
 struct StlRequest {
-  std::string path;
-  InscribedOptions options;
-  double scale = 1;
-  bool scale_given = false;
-  MassOf mass_of = MassOf::spheres;
-  Cover cover = Cover::inside;
-  double max_missing = 0.5; ///< part of the volume that spheres inside may lack
+  std::string path;                 ///< of the STL file
+  InscribedOptions options;         ///< spheres, error and resolution
+  double scale = 1;                 ///< factor of all lengths
+  bool scale_given = false;         ///< the user has stated the unit
+  MassOf mass_of = MassOf::spheres; ///< what mass, centre and inertia are those of
+  Cover cover = Cover::inside;      ///< where the spheres lie
+  double max_missing = 0.5;         ///< part of the volume that spheres inside may lack
 };
 /// Reads the words behind `stl`, and no others. Throws std::invalid_argument.
 StlRequest read_stl_request(base::OptionReader& words);
@@ -44,19 +44,20 @@ ClusterShape shape_of_solid(const Solid& solid, std::vector<Sphere> spheres, con
 
 /// Deviation of a union of spheres from its solid; parts of the solid's values, lengths in units of its R_eq.
 struct FitQuality {
-  int spheres;
+  int spheres;                        ///< number of spheres
   double volume;                      ///< missing part of the volume
   double protrusion;                  ///< largest length by which a sphere stands out of the solid
   double inertia;                     ///< norm of the difference of the inertia tensors per mass, own centres
   double mean_distance, max_distance; ///< from the solid's surface to the spheres
   double mean_eccentricity;           ///< delta_e / R_eq on a plane: value of the spheres less that of the solid
-  double max_eccentricity;
+  double max_eccentricity;            ///< the same of the largest value
 };
 
 /// delta_e / R_eq of the solid itself on a plane (contact at its outermost vertex).
 struct SolidEccentricity {
-  double mean, max;
+  double mean, max; ///< over all directions
 };
+/// Mean and largest over evenly spread directions.
 SolidEccentricity solid_eccentricity(const Solid& solid);
 
 /// `own` is solid_eccentricity(solid), which the caller keeps for several calls.

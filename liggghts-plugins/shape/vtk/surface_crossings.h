@@ -9,6 +9,7 @@
 
 namespace eccentra::shape {
 
+/// Two triangles that cross.
 struct Crossing {
   int first, second;     ///< triangles
   Eigen::Vector3d place; ///< a point that they share

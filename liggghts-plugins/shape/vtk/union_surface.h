@@ -15,7 +15,7 @@ namespace eccentra::shape {
 
 /// Names of the point arrays.
 constexpr const char* eccentricity_array = "delta_e/R_eq";
-constexpr const char* sphere_array = "sub-sphere";
+constexpr const char* sphere_array = "sub-sphere"; ///< which sub-sphere a point belongs to
 
 /// The part of one sphere of a union that no other covers, as triangles with exact normals in the frame of the spheres;
 /// without points if all of it is covered. `fineness` and `margin` as in union_surface.

@@ -20,6 +20,7 @@ extern const char* const kDemFile;
 extern const char* const kFluidPrefix;
 extern const char* const kFluidRecord;
 
+/// The checkpoint from which both sides go on.
 struct CheckpointChoice {
   CheckpointMark mark;                  ///< step -1: none is complete
   std::string restart_file = "none";    ///< for read_restart

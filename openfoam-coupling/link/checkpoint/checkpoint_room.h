@@ -11,6 +11,7 @@ namespace eccentra::link {
 /// Gives a file or folder the first free name PATH.before-1, PATH.before-2, ... and returns it. Throws Refusal.
 std::string keep_beside(const std::string& path);
 
+/// Whose part of a checkpoint.
 enum class Side { dem, fluid };
 
 /// Call before a run writes anything. `folder` contains the folder of checkpoints. A run that begins (`step` -1)

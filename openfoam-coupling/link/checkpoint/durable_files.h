@@ -21,6 +21,7 @@ using Notes = std::vector<std::pair<std::string, std::string>>;
 /// and renames the folder. All members throw Refusal with one sentence if the disk cannot be written.
 class DurableFolder {
  public:
+  /// Makes the folder under a temporary name.
   explicit DurableFolder(std::string folder);
   DurableFolder(const DurableFolder&) = delete;
   DurableFolder& operator=(const DurableFolder&) = delete;
@@ -41,8 +42,8 @@ class DurableFolder {
 
 /// Contents of a manifest or record.
 struct Manifest {
-  CheckpointMark mark;
-  Notes notes;
+  CheckpointMark mark;        ///< the instant that both sides share
+  Notes notes;                ///< further keys and values
   std::uint32_t checksum = 0; ///< of the manifest's own text
 
   /// The first note of that name, or an empty string.
@@ -55,6 +56,7 @@ std::optional<Manifest> check_folder(const std::string& folder, std::string* why
 
 /// Writes a single small file, which replaces an earlier one at once. Throws Refusal.
 void write_record(const std::string& path, const CheckpointMark& mark, const Notes& notes);
+/// The record, or nothing if there is none; `why` as in check_folder.
 std::optional<Manifest> read_record(const std::string& path, std::string* why = nullptr);
 
 /// Numbers N of the entries `prefix`N`suffix` in `folder`, largest first.

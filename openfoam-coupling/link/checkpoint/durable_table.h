@@ -8,6 +8,7 @@
 
 namespace eccentra::link {
 
+/// A text table that survives a kill: a row is there as a whole or not at all.
 class DurableTable {
  public:
   /// Begins a table, or continues an existing one (`goes_on`) after its rows with a first column up to `last`. A table

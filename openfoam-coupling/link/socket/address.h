@@ -23,9 +23,10 @@ struct Address {
   /// port in place of the other (0: one that the system chooses). Negative: the address itself.
   int connection = -1;
 
-  // Words alone are an address.
+  /// From `arguments` and `keys`. Words alone are an address.
   Address(std::string w, std::string k = "") : arguments(std::move(w)), keys(std::move(k)) {}
   Address(const char* w) : arguments(w) {}
+  /// Of rank connection `number` beside the main address.
   Address(const Address& beside, std::uint32_t number)
       : arguments(beside.arguments), keys(beside.keys), connection(static_cast<int>(number)) {}
 };

@@ -26,12 +26,18 @@ class Channel {
   class Message {
    public:
     Message();
+    /// Room for `bytes`.
     explicit Message(std::size_t bytes);
+    /// A copy of `bytes`.
     explicit Message(const wire::Bytes& bytes);
     ~Message();
+    /// Takes the memory of another message.
     Message(Message&&) noexcept;
+    /// The same.
     Message& operator=(Message&&) noexcept;
+    /// Its contents, to be written.
     std::byte* data();
+    /// Its contents, to be read; valid as long as the message.
     wire::View view() const;
 
    private:

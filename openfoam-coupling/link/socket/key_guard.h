@@ -16,6 +16,7 @@ namespace eccentra::link {
 /// can connect while this side computes. Must be constructed before the sockets bind and destroyed before the context.
 class KeyGuard {
  public:
+  /// Allows this public key (Z85) and no other.
   KeyGuard(zmq::context_t& context, const std::string& allowed_public);
   KeyGuard(const KeyGuard&) = delete;
   KeyGuard& operator=(const KeyGuard&) = delete;

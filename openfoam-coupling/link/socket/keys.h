@@ -10,6 +10,7 @@ namespace eccentra::link {
 
 /// Keys as ZeroMQ writes them: 40 characters of Z85.
 struct Keys {
+  /// Both keys of this side, and the public one of the other.
   std::string own_public, own_secret, peer_public;
 };
 

@@ -21,9 +21,9 @@ std::string why_no_rank_connections(MPI_Comm ranks, Channel::Side side, const Ad
 
 /// One end of a rank connection.
 struct RankConnection {
-  std::uint32_t rank = 0; ///< of DEM, from 1 on
-  std::unique_ptr<Channel> channel;
-  Channel::Message message; ///< the last one received
+  std::uint32_t rank = 0;           ///< of DEM, from 1 on
+  std::unique_ptr<Channel> channel; ///< open
+  Channel::Message message;         ///< the last one received
 };
 
 /// The rank connections of this rank: of rank r of DEM, if it is not 0, the one to rank r mod F of the fluid's F ranks.
@@ -40,9 +40,12 @@ class RankConnections {
                bool extents);
   /// As Channel::refuse, on all rank connections of this rank. Not collective.
   void refuse(const std::string& sentence) noexcept;
+  /// Closes all of this rank's.
   void close() noexcept { rank_connections_.clear(); }
 
+  /// First of this rank's.
   std::vector<RankConnection>::iterator begin() { return rank_connections_.begin(); }
+  /// Behind the last.
   std::vector<RankConnection>::iterator end() { return rank_connections_.end(); }
 
  private:

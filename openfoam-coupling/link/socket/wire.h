@@ -13,6 +13,7 @@
 
 namespace eccentra::link::wire {
 
+/// Kinds of messages, by the number in their header.
 enum class Kind : std::uint32_t {
   dem_terms = 1,            ///< DEM to fluid: DemTerms
   fluid_terms = 2,          ///< fluid to DEM: FluidTerms
@@ -59,29 +60,30 @@ std::size_t max_bytes();
 
 /// A message as received; not owned.
 struct View {
-  const std::byte* data = nullptr;
-  std::size_t size = 0;
+  const std::byte* data = nullptr; ///< first byte
+  std::size_t size = 0;            ///< bytes
 };
 
+/// A message that is written.
 using Bytes = std::vector<std::byte>;
 
 // All encoders return header and body; those with rows write what precedes the rows of a message that the caller holds.
-Bytes encode(const DemTerms& terms);
-Bytes encode(const FluidTerms& terms);
-Bytes encode_refusal(const std::string& sentence);
-Bytes encode(const CheckpointMark& mark);
-Bytes encode_checkpointed(const std::string& place);
-Bytes encode_bare(Kind kind); ///< run_ended, farewell, advance or hello
-Bytes encode_rank_connections(const std::vector<std::uint32_t>& numbers);
-Bytes encode_no_rank_connections(const std::string& why);
-Bytes encode(const WallDescription& walls);
-Bytes encode_walls_compared(const std::string& news);
+Bytes encode(const DemTerms& terms);                 ///< Kind::dem_terms
+Bytes encode(const FluidTerms& terms);               ///< Kind::fluid_terms
+Bytes encode_refusal(const std::string& sentence);   ///< one sentence for the user of the other side
+Bytes encode(const CheckpointMark& mark);            ///< a checkpoint is due
+Bytes encode_checkpointed(const std::string& place); ///< it is written at `place`
+Bytes encode_bare(Kind kind);                        ///< run_ended, farewell, advance or hello
+Bytes encode_rank_connections(const std::vector<std::uint32_t>& numbers); ///< of the ports or paths
+Bytes encode_no_rank_connections(const std::string& why);                 ///< one clause for the message
+Bytes encode(const WallDescription& walls);                               ///< of the DEM side
+Bytes encode_walls_compared(const std::string& news);                     ///< sentences, one a line
 /// `message` has room for kHeaderBytes + kCouplingStepBytes; `count` rows follow them.
 void write_coupling_step_head(std::byte* message, const CouplingStep& coupling_step, std::size_t count, bool extents);
 /// Says whose rows of which coupling step these are.
 struct RowsMark {
-  std::uint32_t connection = 0; ///< rank of DEM
-  std::int64_t coupling_step = 0;
+  std::uint32_t connection = 0;   ///< rank of DEM
+  std::int64_t coupling_step = 0; ///< its number
 };
 /// `message` has room for kHeaderBytes + kRowsBytes; `count` rows follow them.
 void write_rows_head(std::byte* message, const RowsMark& mark, std::size_t count, bool extents);
@@ -92,9 +94,9 @@ void write_samples_head(std::byte* message, std::int64_t coupling_step, std::siz
 
 /// Rows of a message, still in it.
 struct Rows {
-  std::size_t count = 0;
-  const std::byte* data = nullptr;
-  int stop_signal = 0; ///< of samples: 0 to 64
+  std::size_t count = 0;           ///< rows
+  const std::byte* data = nullptr; ///< the first one
+  int stop_signal = 0;             ///< of samples: 0 to 64
 };
 
 // The decoders throw Refusal with one sentence unless every size is what is there and every number is finite; none
@@ -103,16 +105,16 @@ struct Rows {
 bool is_ours(View message);
 /// Checks the header, too: magic, byte order, sizes of numbers, version (of all but a refusal), length of the body.
 Kind kind_of(View message);
-DemTerms decode_dem_terms(View message);
-FluidTerms decode_fluid_terms(View message);
-std::string decode_refusal(View message);
-CheckpointMark decode_checkpoint(View message);
-std::string decode_checkpointed(View message);
+DemTerms decode_dem_terms(View message);        ///< as encoded
+FluidTerms decode_fluid_terms(View message);    ///< as encoded
+std::string decode_refusal(View message);       ///< the sentence
+CheckpointMark decode_checkpoint(View message); ///< the mark
+std::string decode_checkpointed(View message);  ///< the place
 /// `asked`: the number of rank connections that the terms asked for.
 std::vector<std::uint32_t> decode_rank_connections(View message, std::size_t asked);
-std::string decode_no_rank_connections(View message);
-WallDescription decode_walls(View message);
-std::string decode_walls_compared(View message);
+std::string decode_no_rank_connections(View message); ///< the clause
+WallDescription decode_walls(View message);           ///< as encoded
+std::string decode_walls_compared(View message);      ///< the sentences
 /// `extents` as the DEM side's terms said. Volumes are positive. With rank connections the rows are some of the
 /// particles.
 Rows decode_coupling_step(View message, bool extents, CouplingStep& coupling_step);
@@ -133,6 +135,7 @@ class ParticlePoints {
  public:
   /// The rows of all `parts`, one after the other.
   void load(const std::vector<Rows>& parts, bool extents, unsigned quantities);
+  /// Arrays over the particles, valid until the next load().
   ParticleArrays particles();
   /// Arrays of the quantities asked for, null for the others, also where there is no particle.
   FluidSamples samples();

@@ -11,11 +11,13 @@ namespace eccentra::link::wire {
 
 // `Way` is Writer, Reader or Sizer; `Record` is const where it is only read.
 
+/// Numbers of a vector.
 template <class Way, class Numbers> constexpr void numbers(Way& way, Numbers& three) {
   for (auto& value : three)
     way.number(value);
 }
 
+/// Fields of Extents.
 template <class Way, class Record> constexpr void extents_fields(Way& way, Record& extents) {
   numbers(way, extents.low);
   numbers(way, extents.high);
@@ -24,17 +26,20 @@ template <class Way, class Record> constexpr void extents_fields(Way& way, Recor
   way.unused();
 }
 
+/// Fields of FlowCurve.
 template <class Way, class Record> constexpr void flow_curve_fields(Way& way, Record& law) {
   way.number(law.yield_stress);
   way.number(law.consistency);
   way.number(law.index);
 }
 
+/// Fields of CheckpointMark.
 template <class Way, class Record> constexpr void mark_fields(Way& way, Record& mark) {
   way.plain(mark.step);
   way.plain(mark.id);
 }
 
+/// Fields of DemTerms.
 template <class Way, class Record> constexpr void dem_terms_fields(Way& way, Record& terms) {
   way.plain(terms.protocol);
   way.yes_or_no(terms.extents);
@@ -53,6 +58,7 @@ template <class Way, class Record> constexpr void dem_terms_fields(Way& way, Rec
   way.unused();
 }
 
+/// Fields of FluidTerms.
 template <class Way, class Record> constexpr void fluid_terms_fields(Way& way, Record& terms) {
   way.plain(terms.protocol);
   way.yes_or_no(terms.has_gravity);
@@ -67,6 +73,7 @@ template <class Way, class Record> constexpr void fluid_terms_fields(Way& way, R
   way.plain(terms.layout);
 }
 
+/// Fields of DemTotals.
 template <class Way, class Record> constexpr void totals_fields(Way& way, Record& totals) {
   way.plain(totals.particles);
   way.plain(totals.inserted);
@@ -80,6 +87,7 @@ template <class Way, class Record> constexpr void totals_fields(Way& way, Record
   numbers(way, totals.volume_velocity);
 }
 
+/// Fields of DemLoad.
 template <class Way, class Record> constexpr void load_fields(Way& way, Record& load) {
   way.plain(load.ranks);
   way.plain(load.max_particles);
@@ -102,6 +110,8 @@ template <class Way, class Record> constexpr void coupling_step_fields(Way& way,
 
 // Lists and names carry their number first.
 
+/// The number of entries, at most `most`; a reader refuses more than fit into the rest of the message at `least` bytes
+/// each.
 template <class Way, class List> constexpr void list_size(Way& way, List& list, std::uint64_t most, std::size_t least) {
   std::uint64_t count = list.size();
   way.plain(count);
@@ -112,12 +122,14 @@ template <class Way, class List> constexpr void list_size(Way& way, List& list, 
   }
 }
 
+/// A name of at most kMostName characters.
 template <class Way, class Text> constexpr void name_field(Way& way, Text& name) {
   list_size(way, name, kMostName, 1);
   for (auto& letter : name)
     way.plain(letter);
 }
 
+/// Fields of PrimitiveWall.
 template <class Way, class Record> constexpr void primitive_fields(Way& way, Record& wall) {
   name_field(way, wall.id);
   name_field(way, wall.name);
@@ -135,6 +147,7 @@ template <class Way, class Record> constexpr void primitive_fields(Way& way, Rec
   numbers(way, wall.angular_velocity);
 }
 
+/// Corners of triangles.
 template <class Way, class List> constexpr void triangles(Way& way, List& list) {
   constexpr std::size_t kTriangleBytes = 9 * sizeof(double);
   list_size(way, list, kMostTriangles, kTriangleBytes);
