@@ -8,7 +8,6 @@ from . import scene_grains
 from .programs import Failure
 from .scene_grains import GRAVITY
 from .scene_layout import SAFETY, critical_step
-from .spread import CLASSES
 from .units import INCH, both
 
 PACKING = 0.55  # of a heap or a filling at rest
@@ -32,7 +31,7 @@ def grain_rows(grain, form):
              f"{both('density', grain.solid_density, 'kg/m3')}, sphericity {form.sphericity:.3f}, {2e3 * form.bounding_radius:.3g} mm over all")]
     if grain.spread:
         rows.append(("sizes", f"{1e3 * grain.spread.smallest:.3g} to {1e3 * grain.spread.largest:.3g} mm",
-                     f"{CLASSES} classes of equal mass; the mass is that of the mean grain, the rest of the largest"))
+                     f"{grain.spread.classes} classes; the mass is that of the mean grain, the rest of the largest"))
     return rows
 
 
@@ -60,7 +59,7 @@ def step_of(wish, grain, speed):
 
 def spheres_roll(grain):
     """Spheres without rolling friction form no slope."""
-    if grain.is_sphere and grain.rolling == 0:
+    if (grain.is_sphere or grain.shape == "sphere 1") and grain.rolling == 0:
         return ["spheres without rolling friction roll apart: a slope needs --rolling 0.1 or another shape"]
     return []
 

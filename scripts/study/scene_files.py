@@ -35,7 +35,7 @@ def entries(layout):
             ("shape", f'"{"cube 8" if wish.shape == "sphere" else wish.shape}"', "as in fix particletemplate/cluster"),
             ("diameter", wish.diameter, "of the sphere of equal volume [m]"), *sizes_row(wish.spread), ("solidDensity", wish.solid_density, "[kg/m3]"),
             ("youngsModulus", wish.stiffness, "[Pa]"), ("friction", wish.friction, ""), ("restitution", wish.restitution, ""),
-            ("rolling", wish.rolling, "rolling friction of spheres (cdt)"), ("effects", '"drag chien pressure_gradient on"', "docs/fix_fluid_force.md"),
+            ("rolling", wish.rolling, "rolling friction (cdt)"), ("effects", '"drag chien pressure_gradient on"', "docs/fix_fluid_force.md"),
             ("seed", wish.seed, "of where grains appear: a prime above 10000")]
     if wish.kind == "section":
         rows += [("count", layout.count, "grains in the section"), ("pouring", 0.5 if wish.solid > 0.12 else 0, "time to pour in what has no room at once [s]"),

@@ -153,4 +153,4 @@ def entries(grain):
             ("shape", f'"{"cube 8" if grain.is_sphere else grain.shape}"', "as in fix particletemplate/cluster"),
             ("diameter", grain.diameter, "of the sphere of equal volume [m]"), *sizes_row(grain.spread), ("solidDensity", grain.solid_density, "[kg/m3]"),
             ("youngsModulus", grain.stiffness, "[Pa]"), ("friction", grain.friction, "between grains"),
-            ("restitution", grain.restitution, ""), ("rolling", grain.rolling, "rolling friction of spheres (cdt)")]
+            ("restitution", grain.restitution, ""), ("rolling", grain.rolling, "rolling friction (cdt)")]

@@ -14,13 +14,14 @@ EXPECTED = "expected 'uniform PART', 'gaussian PART' or 'lognormal PART', such a
 
 class Spread(typing.NamedTuple):
     """words: behind `diameter` in the script; diameters [m] of the smallest and the largest class; mean volume of a grain [m3]; the middle diameter [m];
-    the file of a sieve analysis."""
+    the file of a sieve analysis; the number of classes."""
     words: str
     smallest: float
     largest: float
     volume: float
     middle: float
     file: typing.Optional[pathlib.Path] = None
+    classes: int = CLASSES
 
 
 def summed(parts):
@@ -60,7 +61,7 @@ def of_sieve(name):
     at = next(k for k, row in enumerate(rows) if row[1] >= 50)
     (low, below), (high, above) = rows[at - 1], rows[at]
     middle = low * (high / low) ** ((50 - below) / (above - below))
-    return Spread(f"sieve {pathlib.Path(name).resolve()}", *summed(parts), middle, pathlib.Path(name).resolve())
+    return Spread(f"sieve {pathlib.Path(name).resolve()}", *summed(parts), middle, pathlib.Path(name).resolve(), len(parts))
 
 
 def spread_of(text, diameter):

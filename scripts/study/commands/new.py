@@ -124,7 +124,7 @@ def grain_options(new, diameter, restitution):
     grain.add_argument("--stiffness", default="5e6", help="Young's modulus in the contacts (default: %(default)s Pa)")
     grain.add_argument("--friction", default="0.5", help="0 to 2 (default: %(default)s)")
     grain.add_argument("--restitution", default=restitution, help="0.05 to 1 (default: 0.9; heap 0.4, drum 0.6)")
-    grain.add_argument("--rolling", default="0", help="rolling friction of spheres (cdt), 0 to 1 (default: %(default)s)")
+    grain.add_argument("--rolling", default="0", help="rolling friction (cdt), 0 to 1 (default: %(default)s)")
 
 
 def mud_of(words):
