@@ -55,7 +55,7 @@ in_root() {
 copy_tree() {
   local new file
   mkdir -p "$1"
-  new=$(mktemp -d "$1.XXXXXX")
+  new=$(mktemp -d -p "$(dirname "$1")") # beside it: on the same disk
   git ls-files -z | tar --null --ignore-failed-read -cf - -T - | tar -xf - -C "$new"
   while IFS= read -r -d '' file; do
     [ -e "$new/$file" ] || [ -L "$new/$file" ] || rm -rf "${1:?}/$file"
