@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every model of contacts in scenes of clusters and spheres: the same digits on two ranks as on one and through a
 // restart.
+#include "styles/bodies/body_rows.h"
 #include "styles/pairs/each_model.h"
 
 #include "fix_property_atom.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <random>
@@ -38,28 +40,26 @@ void fill(LiggghtsSession& session) {
   }
 }
 
+/// The state of a body and its liquid.
 using Row = std::array<double, 14>;
 
-/// Position, velocity, quaternion, angular velocity and liquid by tag, the same on every rank.
+/// By tag, the same on every rank.
 std::vector<Row> rows_of(LiggghtsSession& session, MPI_Comm ranks) {
+  const std::vector<BodyRow> bodies = body_rows(session, kBodies, ranks);
   std::vector<Row> all(kBodies, Row{});
-  styles::FixClusterBodies& bodies = styles::FixClusterBodies::require(&session.lammps());
   const double* liquid = nullptr;
   for (int f = 0; f < session.lammps().modify->nfix; ++f)
     if (!std::strcmp(session.lammps().modify->fix[f]->id, "surfaceLiquidContent"))
       liquid = static_cast<LAMMPS_NS::FixPropertyAtom*>(session.lammps().modify->fix[f])->vector_atom;
-  for (int tag = 1; tag <= kBodies; ++tag) {
-    const int i = session.local(tag);
-    if (i < 0)
-      continue;
-    double* next = all[tag - 1].data();
-    next = std::copy_n(session.atom().x[i], 3, next);
-    next = std::copy_n(session.atom().v[i], 3, next);
-    next = std::copy_n(bodies.quaternion(i), 4, next);
-    next = std::copy_n(session.atom().omega[i], 3, next);
-    *next = liquid ? liquid[i] : 0;
+  std::array<double, kBodies> liquids{};
+  for (int tag = 1; tag <= kBodies && liquid != nullptr; ++tag)
+    if (const int i = session.local(tag); i >= 0)
+      liquids[tag - 1] = liquid[i];
+  MPI_Allreduce(MPI_IN_PLACE, liquids.data(), kBodies, MPI_DOUBLE, MPI_SUM, ranks);
+  for (int k = 0; k < kBodies; ++k) {
+    std::copy(bodies[k].begin(), bodies[k].end(), all[k].begin());
+    all[k].back() = liquids[k];
   }
-  MPI_Allreduce(MPI_IN_PLACE, all[0].data(), kBodies * 14, MPI_DOUBLE, MPI_SUM, ranks);
   return all;
 }
 
