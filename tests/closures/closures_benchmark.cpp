@@ -2,18 +2,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Nanoseconds per particle of each effect, alone and together, beside a hand-written drag loop.
 #include "closures/fluid_options.h"
+#include "closures/oriented_shape.h"
+#include "closures/projected_area.h"
+#include "shape/cluster_shape.h"
+#include "shape/resistance.h"
 
 #include "hand_written_drag.h"
 #include "law_names.h"
 #include "particle_arrays.h"
 
+#include <Eigen/Geometry>
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
-#include <cstring>
+#include <random>
 #include <sstream>
+#include <tuple>
 
 using namespace eccentra::closures;
 using namespace eccentra::link;
@@ -33,15 +37,57 @@ EffectList effects_of(const std::string& arguments) {
   return make_effects(read_fluid_options(list, 1));
 }
 
-void run_effects(benchmark::State& state, const std::string& arguments) {
-  ParticleArrays particles(kParticles);
+/// The same particles as disks of 48 spheres that lie at random.
+class Disks : public ParticleArrays {
+ public:
+  explicit Disks(int count) : ParticleArrays(count) {
+    std::size_t used = 0;
+    const eccentra::shape::ClusterShape disk = eccentra::shape::make_shape({"disk", "48"}, 0, used, 6.35e-3);
+    const double d = 2.0 * disk.equivalent_radius();
+    factors_.sphericity = disk.sphericity();
+    oriented_ =
+        oriented_shape(eccentra::shape::resistance_of(disk), disk.inertia_per_mass() / (d * d),
+                       [&](const Eigen::Vector3d& along) { return projected_area(disk.spheres(), along) / (d * d); });
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal;
+    for (int i = 0; i < count; ++i) {
+      const double w = normal(random), x = normal(random), y = normal(random), z = normal(random);
+      const Eigen::Quaterniond q = Eigen::Quaterniond(w, x, y, z).normalized();
+      quaternions_.insert(quaternions_.end(), {q.w(), q.x(), q.y(), q.z()});
+    }
+  }
+  ShapeFactors factors(int) const override { return factors_; }
+  const OrientedShape* oriented(int) const override { return &oriented_; }
+  const double* quaternion(int i) const override { return &quaternions_[4 * std::size_t(i)]; }
+
+ private:
+  ShapeFactors factors_;
+  OrientedShape oriented_;
+  std::vector<double> quaternions_;
+};
+
+/// All effects that the arguments make, or the one with the name `only`; without the quantities of the flow that they
+/// do not need.
+template <class Particles>
+void run_effects(benchmark::State& state, const std::string& arguments, const std::string& only = "") {
+  Particles particles(kParticles);
   EffectList effects = effects_of(arguments);
-  for (const auto& effect : effects)
+  effects.erase(std::remove_if(effects.begin(), effects.end(),
+                               [&](const auto& effect) { return !only.empty() && effect->name() != only; }),
+                effects.end());
+  unsigned needs = 0;
+  for (const auto& effect : effects) {
     effect->prepare(particles);
+    needs |= effect->needs();
+  }
+  HalfStep half_step = particles.half_step();
+  for (const FlowQuantity& quantity : kFlowQuantities)
+    if (!(needs & quantity.bit))
+      half_step.samples[quantity.bit] = nullptr;
   for (auto _ : state) {
     particles.clear_forces();
     for (const auto& effect : effects)
-      effect->apply(particles.half_step());
+      effect->apply(half_step);
     benchmark::ClobberMemory();
   }
   state.counters["ns_per_particle"] = benchmark::Counter(1e-9 * double(kParticles) * double(state.iterations()),
@@ -62,13 +108,13 @@ void run_hand_written(benchmark::State& state) {
 } // namespace
 
 int main(int argc, char** argv) {
-  benchmark::RegisterBenchmark("empty", [](benchmark::State& s) { run_effects(s, kMud); });
+  benchmark::RegisterBenchmark("empty", [](benchmark::State& s) { run_effects<ParticleArrays>(s, kMud); });
   benchmark::RegisterBenchmark("hand_written_drag/herschel_bulkley", run_hand_written);
   for (const std::string& law : eccentra::test::drag_laws())
     for (const auto& [fluid, rheology] : {std::pair{"herschel_bulkley", kMud}, std::pair{"newtonian", kOil}}) {
       const std::string arguments = rheology + "drag " + law;
       benchmark::RegisterBenchmark(("drag_" + law + "/" + fluid).c_str(),
-                                   [arguments](benchmark::State& s) { run_effects(s, arguments); });
+                                   [arguments](benchmark::State& s) { run_effects<ParticleArrays>(s, arguments); });
     }
   const std::pair<const char*, const char*> single[] = {
       {"shear_lift", "shear_lift saffman_mei"}, {"rotational_lift", "rotational_lift oesterle_bui_dinh"},
@@ -80,14 +126,28 @@ int main(int argc, char** argv) {
     for (const auto& [fluid, rheology] : {std::pair{"herschel_bulkley", kMud}, std::pair{"newtonian", kOil}}) {
       const std::string line = rheology + arguments;
       benchmark::RegisterBenchmark((std::string(name) + "/" + fluid).c_str(),
-                                   [line](benchmark::State& s) { run_effects(s, line); });
+                                   [line](benchmark::State& s) { run_effects<ParticleArrays>(s, line); });
     }
   }
   for (const auto& [fluid, rheology] : {std::pair{"herschel_bulkley", kMud}, std::pair{"newtonian", kOil}}) {
     const std::string line = rheology + all;
     benchmark::RegisterBenchmark((std::string("all/") + fluid).c_str(),
-                                 [line](benchmark::State& s) { run_effects(s, line); });
+                                 [line](benchmark::State& s) { run_effects<ParticleArrays>(s, line); });
   }
+  const std::string real = "drag chien oriented on drag_torque dennis strain_torque jeffery pitching_torque dabade ";
+  const std::tuple<const char*, std::string, const char*> oriented[] = {
+      {"oriented_drag_chien", "drag chien oriented on", ""},
+      {"oriented_drag_holzer_sommerfeld", "drag holzer_sommerfeld oriented on", ""},
+      {"oriented_drag_torque", "drag_torque dennis oriented on", ""},
+      {"strain_torque", real, "strain_torque"},
+      {"pitching_torque", real, "pitching_torque"},
+      {"oriented_all", real, ""}};
+  for (const auto& [name, arguments, only] : oriented)
+    for (const auto& [fluid, rheology] : {std::pair{"herschel_bulkley", kMud}, std::pair{"newtonian", kOil}})
+      benchmark::RegisterBenchmark((std::string(name) + "/" + fluid).c_str(),
+                                   [line = rheology + arguments, only = std::string(only)](benchmark::State& s) {
+                                     run_effects<Disks>(s, line, only);
+                                   });
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
   return 0;

@@ -9,6 +9,7 @@ BINGHAM, INDICES, ASPECTS = (0.0, 0.1, 1.0, 10.0, 100.0), (1.0, 0.8, 0.6, 0.4), 
 COARSE, FINE = (48, 32), (108, 72)  # beside the mesh of wedge.Case, each 1.5 times as fine as the one before
 ORDER = 1.5 ** 2 - 1  # what the change from mesh to mesh is divided by for the error that is left, at second order
 CHECKED = (1.0, 0.6)  # indices of the further checks
+OUTER = {20.0: 60, 100.0: 84, 200.0: 96}  # radii of the outer sphere, beside that of wedge.Case, with the radial cells
 ANSLEY_SMITH = 7 * math.pi / 24
 AT_REST = 1 / (18 * 0.143 / 3)  # C_s/Bn of Beris et al. 1985: (pi/6)/(0.143/3)/(3 pi)
 
@@ -41,13 +42,13 @@ def cross_coefficient(points):
 def checks(chosen):
     """{what: [(case, changed case)]}"""
     spheres = [wedge.Case(index=n, bingham=b) for n in CHECKED if n in chosen.indices for b in chosen.bingham if b >= 1]
-    far = [wedge.Case(index=n, bingham=b) for n in CHECKED if n in chosen.indices for b in chosen.bingham if b <= 0.1]
+    far = [wedge.Case(index=n, bingham=b) for n in chosen.indices for b in chosen.bingham if b == 0 or b <= 0.1 and n in CHECKED]
+    power_law = [case for case in far if case.bingham == 0]
     return {
-        "mesh of 108 x 72 cells": [(case, case._replace(radial=FINE[0], polar=FINE[1])) for case in spheres],
+        "mesh of 108 x 72 cells": [(case, case._replace(radial=FINE[0], polar=FINE[1])) for case in power_law + spheres],
         "cap of 100": [(case, case._replace(cap=100.0)) for case in spheres],
-        "cap of 1000": [(case, case._replace(cap=1000.0)) for case in spheres],
-        "outer radius of 20": [(case, case._replace(outer=20.0)) for case in far],
-        "outer radius of 100": [(case, case._replace(outer=100.0, radial=84)) for case in far]}
+        "cap of 1000": [(case, case._replace(cap=1000.0)) for case in power_law + spheres],
+        **{f"outer radius of {outer:g}": [(case, case._replace(outer=outer, radial=radial)) for case in far] for outer, radial in OUTER.items()}}
 
 
 def name_of(case):

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The section of Tomren with forces of the sphere of equal volume and with those of the real shape: flux, bed, attitude."""
+"""The section of Tomren with forces of the sphere of equal volume and with those of the real shape, in mud with each form of eq (23): flux, bed,
+attitude."""
 import math
 import re
 import shutil
@@ -11,6 +12,7 @@ from ..programs import run
 
 FORCES = {"sphere": "drag chien pressure_gradient on drag_torque dennis",
           "oriented": "drag chien pressure_gradient on drag_torque dennis oriented on strain_torque jeffery pitching_torque dabade"}
+FORMS = ("additive", "cross")  # of yield_form
 BINS = 9  # of the angle between a body's axis and the hole
 QUANTITIES = {"flux": "solid flux [m3/s]", "gradient": "pressure gradient [Pa/m]", "height": "height of the solid's centre [m]"}
 
@@ -31,9 +33,14 @@ def attitude(case, share):
     return angles
 
 
-def job(chosen, shape, forces, inclination, seed):
+def effects_of(forces, form):
+    """The arguments of fix fluid/force; the additive form is its default."""
+    return FORCES[forces] + (f" yield_form {form}" if form != FORMS[0] else "")
+
+
+def job(chosen, shape, forces, form, inclination, seed):
     words = {"shape": shape, "count": chosen.count, "inclination": inclination, "seed": seed, "seconds": chosen.seconds, "interval": chosen.interval,
-             "effects": FORCES[forces]}
+             "effects": effects_of(forces, form), **({"tau0": f"{chosen.tau0:g}"} if chosen.tau0 else {})}
 
     def work(folder):
         case, cpu, _ = section.run_case(chosen.build, folder, words)
@@ -45,7 +52,7 @@ def job(chosen, shape, forces, inclination, seed):
         shutil.rmtree(case)
         return result
 
-    return runs.Job(f"{shape}, {forces}, {inclination:g} degrees, seed {seed}", {"what": "oriented section", "case": section.case_digest(),
+    return runs.Job(f"{shape}, {forces}, {form}, {inclination:g} degrees, seed {seed}", {"what": "oriented section", "case": section.case_digest(),
                     **{key: str(value) for key, value in words.items()}}, work, section.estimate_of(words, 48))
 
 
@@ -59,6 +66,11 @@ def main():
                             "with standard errors.", "one shape, one seed, 0.2 s")
     parser.add_argument("--shapes", action=options.Words, metavar="S", help="as disk:48 (default: disk:48 cube:64)")
     parser.add_argument("--inclinations", action=options.Words, metavar="DEG", help="from the vertical (default: 0 40 80)")
+    parser.add_argument("--forces", action=options.Words, choices=tuple(FORCES), metavar="F",
+                        help="of the sphere of equal volume, of the real shape (default: " + " ".join(FORCES) + ")")
+    parser.add_argument("--tau0", type=float, default=0.0, metavar="PA", help="yield stress of the mud (default 0, as the paper)")
+    parser.add_argument("--yield-forms", action=options.Words, choices=FORMS, metavar="FORM",
+                        help="yield_form of fix fluid/force: additive (default), cross; needs --tau0")
     parser.add_argument("--seeds", type=options.at_least_one, metavar="N", help="starts of each (default 3)")
     parser.add_argument("--count", type=options.at_least_one, default=600, metavar="N", help="bodies (default 600)")
 
@@ -68,30 +80,38 @@ def main():
             chosen.inclinations = [float(word) for word in chosen.inclinations or (["80"] if chosen.quick else ["0", "40", "80"])]
         except ValueError as error:
             parser.error(f"--inclinations: {error}")
+        chosen.forces, chosen.yield_forms = chosen.forces or list(FORCES), chosen.yield_forms or [FORMS[0]]
+        if not 0 <= chosen.tau0 < math.inf:
+            parser.error(f"--tau0: {chosen.tau0:g} is not a number from 0 on")
+        if chosen.tau0 == 0 and chosen.yield_forms != [FORMS[0]]:
+            parser.error("--yield-forms: without a yield stress the forms are the same; give --tau0")
         chosen.seeds = chosen.seeds or (1 if chosen.quick else 3)
         if chosen.seeds > len(section.SEEDS):
             parser.error(f"--seeds is {chosen.seeds}: give at most {len(section.SEEDS)}")
         chosen.seconds, chosen.interval = (0.2, 64) if chosen.quick else (2.0, 64)
 
     chosen = parser.settle(("annulusFoam", "annulusMesh", "annulusReport"), check)
-    keys = [(shape, inclination, forces) for shape in chosen.shapes for inclination in chosen.inclinations for forces in FORCES]
-    jobs = {(*key, seed): job(chosen, key[0], key[2], key[1], seed) for key in keys for seed in section.SEEDS[:chosen.seeds]}
+    keys = [(shape, inclination, forces, form) for shape in chosen.shapes for inclination in chosen.inclinations for forces in chosen.forces
+            for form in chosen.yield_forms]
+    jobs = {(*key, seed): job(chosen, key[0], key[2], key[3], key[1], seed) for key in keys for seed in section.SEEDS[:chosen.seeds]}
     found = chosen.store.run_all("section", jobs.values())
     if chosen.plan:
         return 0
     found = runs.needed(found, jobs)
     rows, histograms = [], []
-    for shape, inclination, forces in keys:
-        results = [found[shape, inclination, forces, seed] for seed in section.SEEDS[:chosen.seeds]]
-        row = [shape, f"{inclination:g}", forces]
+    for key in keys:
+        shape, inclination, *named = key
+        results = [found[(*key, seed)] for seed in section.SEEDS[:chosen.seeds]]
+        row = [shape, f"{inclination:g}", *named]
         for name in QUANTITIES:
             value, error = mean_and_error([r["mean"][name][0] for r in results])
             row += [f"{value:.3e}", f"{error:.1e}"]
         value, error = mean_and_error([r["across"] for r in results])
         rows.append([*row, f"{value:.3f}", f"{error:.3f}"])
-        histograms.append((shape, inclination, forces, [statistics.fmean(column) for column in zip(*(r["histogram"] for r in results))]))
-    header = ["shape", "degrees", "forces"] + [word for name in QUANTITIES for word in (name, f"{name}_error")] + ["cosine_to_hole", "cosine_error"]
-    tables.publish(chosen, "section", "Section with forces of the sphere and of the real shape", header, rows)
+        histograms.append((shape, inclination, ", ".join(named[:1] if len(chosen.yield_forms) == 1 else named),
+                           [statistics.fmean(column) for column in zip(*(r["histogram"] for r in results))]))
+    header = ["shape", "degrees", "forces", "yield_form"] + [word for name in QUANTITIES for word in (name, f"{name}_error")]
+    tables.publish(chosen, "section", "Section with forces of the sphere and of the real shape", header + ["cosine_to_hole", "cosine_error"], rows)
     panels = []
     for shape in chosen.shapes:
         for inclination in chosen.inclinations:
