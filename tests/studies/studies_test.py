@@ -18,7 +18,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("ECCENTRA_BUILD", ROOT / "build"))
 sys.path.insert(0, str(ROOT / "scripts"))
-from study import (annulus_scene, charts, convergence, grain_shapes, ladders, level_study, levels, loop_data, measures,  # noqa: E402
+from study import (annulus_scene, charts, cohesion, convergence, grain_shapes, ladders, level_study, levels, loop_data, measures,  # noqa: E402
                    patch_walls, power, programs, runs, scene_bed, scene_grains, section, shape_levels, tables, timing, truth_chart, user_scene,
                    user_study, wedge)
 from study.commands import creeping_drag  # noqa: E402
@@ -717,6 +717,27 @@ class Scripts(unittest.TestCase):
                     self.assertEqual([row["pressure"] for row in found], ["gamg", "pcgGamg"])
                     self.assertTrue(all(float(row["iterations"]) >= 1 for row in found))
 
+    def test_clusters_that_stick_form_a_steeper_heap(self):
+        if not (BUILD / "bin" / "annulusReport").is_file():
+            self.skipTest("annulusReport is not built")
+        with tempfile.TemporaryDirectory() as folder:
+            said = run("compare-rolling", "--cohesion", "--quick", "--scenes", "heap", "--models", "dry", "sjkr", "--seeds", "1", "--shape", "cube 8",
+                       "--out", folder)
+            self.assertEqual(said.returncode, 0, said.stderr + said.stdout)
+            with open(pathlib.Path(folder) / "cohesion.csv", newline="") as rows:
+                dry, sticky = csv.DictReader(rows)
+            self.assertEqual((dry["cohesion"], sticky["cohesion"]), ("dry", "sjkr"))
+            self.assertGreater(float(sticky["angle_degrees"]), 1.5 * float(dry["angle_degrees"]))
+            self.assertAlmostEqual(float(sticky["more_than_dry"]), float(sticky["angle_degrees"]) - float(dry["angle_degrees"]), places=9)
+            self.assertGreater((pathlib.Path(folder) / "cohesion-heap.png").stat().st_size, 20000)
+
+    def test_cohesion_compares_what_one_seed_gives(self):
+        results = {("heap", name, seed): {"angle": angle, "cpu": 2.0 if name == "dry" else 5.0}
+                   for name, angles in (("dry", (10, 14)), ("sjkr", (30, 34, 90))) for seed, angle in enumerate(angles)}
+        dry, sticky = cohesion.rows_of(results, "heap")
+        self.assertEqual(dry, ["heap", "dry", 12, 2.0, 2, 0, 0, 1])
+        self.assertEqual((sticky[4], sticky[5:]), (3, [20, 0, 2.5]))  # of both seeds 20 more; the third has no dry one
+
     def test_bad_words(self):
         for script, words, says in (
                 ("accuracy-cost", ["--seeds", "0"], "--seeds is 0: give 1 to 10"),
@@ -749,6 +770,11 @@ class Scripts(unittest.TestCase):
                 ("compare-rolling", ["--seeds", "9"], "--seeds is 9: give 1 to 8"),
                 ("compare-rolling", ["--mu", "-1"], "--mu is -1.0: give a number >= 0"),
                 ("compare-rolling", ["--scenes", "slope,ocean"], "invalid choice: 'ocean'"),
+                ("compare-rolling", ["--cohesion", "--scenes", "hopper"], "--scenes: hopper is not there with --cohesion; expected heap, drum"),
+                ("compare-rolling", ["--cohesion", "--models", "cdt"], "--models: cdt is not there with --cohesion; expected dry, sjkr, washino, easo"),
+                ("compare-rolling", ["--models", "sjkr"], "--models: sjkr is there only with --cohesion; expected cluster, "),
+                ("compare-rolling", ["--cohesion", "--mu", "0.1"], "--mu is not read with --cohesion"),
+                ("compare-rolling", ["--cohesion", "--cost"], "argument --cost: not allowed with argument --cohesion"),
                 ("effects", ["--steps", "10"], "--steps is 10: a whole number of at least 1000 is needed"),
                 ("effects", ["--gradient", "1,5"], "--gradient is '1,5': a number in 1/s is needed"),
                 ("closure-cost", ["--repetitions", "x"], "'x' is not a whole number of at least 1"),

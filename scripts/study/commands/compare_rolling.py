@@ -7,7 +7,7 @@ import pathlib
 import shutil
 import statistics
 
-from .. import charts, dry, frames, levels, measures, options, programs, runs, section, tables
+from .. import charts, cohesion, dry, frames, levels, measures, options, programs, runs, section, tables
 from ..dry import SCENE, SEEDS
 from ..frames import DIAMETER, RADIUS
 from ..programs import RUN_CASE, digest_of, run
@@ -238,15 +238,33 @@ def main():
         "compare-rolling", "Compares rolling models with clusters: " + "; ".join(f"{k}: {v[0]} [{v[1]}]" for k, v in SCENES.items()),
         "fewer bodies, 2 seeds (8 for single bodies): within 5 minutes on 2 cores",
         epilog="Writes comparison.txt, comparison.csv, charts and pictures (SVG), cost.txt.")
-    parser.add_argument("--scenes", action=options.Words, choices=list(SCENES), default=list(SCENES), help="default: all")
-    parser.add_argument("--models", action=options.Words, choices=names,
-                        help="default: all, with --quick and --cost without clusters that have rolling friction, too")
+    parser.add_argument("--scenes", action=options.Words, choices=list(SCENES), help="default: all; with --cohesion heap and drum")
+    parser.add_argument("--models", action=options.Words, choices=names + list(cohesion.MODELS),
+                        help="default: all, with --quick and --cost without clusters that have rolling friction, too; with --cohesion "
+                        f"{', '.join(cohesion.USUAL)} of {', '.join(cohesion.MODELS)}")
     parser.add_argument("--seeds", type=int, help="runs per scene and model (default 4, with --quick and in the section 2; single bodies always 8)")
-    parser.add_argument("--mu", type=float, default=0.32, help="rolling friction coefficient (default 0.32, the paper's for cubes)")
+    parser.add_argument("--mu", type=float, help="rolling friction coefficient (default 0.32, the paper's for cubes)")
     parser.add_argument("--shape", default="cube 64", help="shape of clusters and of eccentric (default 'cube 64')")
-    parser.add_argument("--cost", action="store_true", help="only measure what the models cost, one at a time")
+    only = parser.add_mutually_exclusive_group()
+    only.add_argument("--cost", action="store_true", help="only measure what the models cost, one at a time")
+    only.add_argument("--cohesion", action="store_true", help="only heap and drum of clusters that stick to each other or are wet, beside dry ones; with "
+                      "pictures by annulusReport")
 
     def check(chosen):
+        if chosen.cohesion:
+            for scene in chosen.scenes or ():
+                if scene not in cohesion.SCENES:
+                    parser.error(f"--scenes: {scene} is not there with --cohesion; expected {', '.join(cohesion.SCENES)}")
+            if chosen.mu is not None:
+                parser.error("--mu is not read with --cohesion, whose clusters have no rolling friction; leave it out")
+        of_study = list(cohesion.MODELS) if chosen.cohesion else names
+        for name in chosen.models or ():
+            if name not in of_study:
+                parser.error(f"--models: {name} is {'not there' if chosen.cohesion else 'there only'} with --cohesion; expected {', '.join(of_study)}")
+        if chosen.cohesion:
+            chosen.models = chosen.models or list(cohesion.USUAL)
+        chosen.scenes = chosen.scenes or list(cohesion.SCENES if chosen.cohesion else SCENES)
+        chosen.mu = 0.32 if chosen.mu is None else chosen.mu
         chosen.models = chosen.models or (few if chosen.quick or chosen.cost else names)
         if chosen.seeds is not None and not 1 <= chosen.seeds <= ALL_SEEDS:
             parser.error(f"--seeds is {chosen.seeds}: give 1 to {ALL_SEEDS}")
@@ -254,10 +272,18 @@ def main():
             parser.error(f"--mu is {chosen.mu}: give a number >= 0")
 
     coupled = ("annulusFoam", "annulusMesh")
-    chosen = parser.settle(lambda c: ("eccentra-dem", "clusterShape") + (coupled if "section" in c.scenes and not c.cost else ()), check)
+
+    def needs(chosen):
+        if chosen.cohesion:
+            return "eccentra-dem", "clusterShape", "annulusReport"
+        return ("eccentra-dem", "clusterShape") + (coupled if "section" in (chosen.scenes or SCENES) and not chosen.cost else ())
+
+    chosen = parser.settle(needs, check)
     # Runs have folders of their own: files of shapes by their whole paths.
     chosen.shape = " ".join(str(pathlib.Path(word).resolve()) if pathlib.Path(word).is_file() else word for word in chosen.shape.split())
     chosen.sphericity = levels.measured(chosen.build, chosen.shape, "--diameter", DIAMETER)["sphericity"]
+    if chosen.cohesion:
+        return cohesion.report(chosen, lambda scene, seed: variables_of(chosen, scene, "cluster", seed))
     if chosen.cost:
         return report_cost(chosen)
     jobs = {}
