@@ -9,6 +9,18 @@ namespace eccentra::contact {
 typedef float Float4 __attribute__((vector_size(16)));
 typedef double Double4 __attribute__((vector_size(32)));
 
+/// A vector of three numbers; the fourth lane is 0.
+inline Double4 load3(const double* vector) {
+  return Double4{vector[0], vector[1], vector[2], 0};
+}
+
+/// a x b; the fourth lane is 0 where those of both are finite.
+inline Double4 cross(Double4 a, Double4 b) {
+  const Double4 next_a = __builtin_shufflevector(a, a, 1, 2, 0, 3), last_a = __builtin_shufflevector(a, a, 2, 0, 1, 3);
+  const Double4 next_b = __builtin_shufflevector(b, b, 1, 2, 0, 3), last_b = __builtin_shufflevector(b, b, 2, 0, 1, 3);
+  return next_a * last_b - last_a * next_b;
+}
+
 /// What a contact asks of a body, together: arrays of positions, velocities, masses ... of which each contact needs one
 /// row cost a cache line each. The orientation is all zero for a round body, whose own nobody sees. Fourth lanes are 0.
 struct alignas(64) BodyState {

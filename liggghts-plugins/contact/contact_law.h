@@ -4,6 +4,8 @@
 // stiffness and damping (contact_models.h).
 #pragma once
 
+#include "contact/body_state.h"
+
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -95,19 +97,11 @@ template <class Block> inline void contact_geometry(Block& c, int n) {
 
 /// What ContactRows::velocity and spin are in the middle of the step, in axes that turn with B to its end. `va`, `vb`:
 /// velocities of the centres; `wb`: spin of B; `half`: half a step [s].
-inline void to_middle_of_step(double* velocity, double* spin, const double* va, const double* vb, const double* wb,
-                              double half) {
+inline void to_middle_of_step(Double4& velocity, Double4& spin, Double4 va, Double4 vb, Double4 wb, double half) {
   // B's matter at A's centre, half a step back: the centres were elsewhere.
-  const double d[3] = {half * (va[0] - vb[0]), half * (va[1] - vb[1]), half * (va[2] - vb[2])};
-  velocity[0] += wb[1] * d[2] - wb[2] * d[1];
-  velocity[1] += wb[2] * d[0] - wb[0] * d[2];
-  velocity[2] += wb[0] * d[1] - wb[1] * d[0];
-  for (double* vector : {velocity, spin}) {
-    const double x = vector[0], y = vector[1], z = vector[2];
-    vector[0] += half * (wb[1] * z - wb[2] * y);
-    vector[1] += half * (wb[2] * x - wb[0] * z);
-    vector[2] += half * (wb[0] * y - wb[1] * x);
-  }
+  velocity += cross(wb, half * (va - vb));
+  velocity += half * cross(wb, velocity);
+  spin += half * cross(wb, spin);
 }
 
 /// How Coulomb's law bounds the tangential force. Under all of them the spring holds at most the bound.

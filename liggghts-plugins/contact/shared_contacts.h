@@ -35,6 +35,15 @@ class SharedTensors {
     /// [N/m], [N] and [N m], weighted by the squares of the cosines between the normals.
     double stiffness = 0, force = 0, work = 0;
     double arm[3] = {0, 0, 0}; ///< weighted by stiffness
+
+    /// A contact along the same normal; arguments as those of SharedTensors::add.
+    template <class Vector> void add(double of_one, double overlap, const Vector& to) {
+      stiffness += of_one;
+      force += of_one * overlap;
+      work += of_one * overlap * overlap;
+      for (int d = 0; d < 3; ++d)
+        arm[d] += of_one * to[d];
+    }
   };
   /// A contact: stiffness [N/m], overlap [m], unit normal and arm from the body's centre [m].
   template <class Vector> void add(double stiffness, double overlap, const Vector& n, const Vector& arm) {
@@ -74,49 +83,22 @@ struct ContactGroup {
 };
 
 /// Multiplies the damping of contacts by their shares and by the roots of the masses that they feel, each along its own
-/// normal. Pairs, walls, bodies that rest and blocks of any size all come here. Contacts of a group whose normals are
-/// one are taken together: they act as one at their mean arm, weighted by stiffness, as a body that lands on a face is
-/// hit in the centre though none of its contacts is. Where normals disagree, contact k sees the others weighted by
-/// (n_j . n_k)^2.
+/// normal. Pairs, walls, bodies that rest and blocks of any size all come here. Contact k sees the others of its group
+/// weighted by (n_j . n_k)^2, and acts with them at their mean arm, weighted by stiffness: a body that lands on a face
+/// is hit in the centre though none of its contacts is.
 class DampingShares {
  public:
-  /// `group(k)` is the ContactGroup k of `groups`, at most ImpactRows::capacity; `group_of` tells the group of each of
-  /// the n contacts. `bodies` has a row for each group, whose normal, arm and factor are written here. Rows of the
-  /// block up to whole vectors hold finite numbers.
+  /// `group(k)` is the ContactGroup k of `groups`; `group_of` tells the group of each of the n contacts. `bodies` has a
+  /// row for each group. Rows of the block up to whole vectors hold finite numbers.
   template <class Block, class Groups>
-  void apply(Block& c, int n, const int* group_of, int groups, const Groups& group, ImpactRows& bodies) {
-    const int padded = whole_vectors(n);
-    start(c, padded);
-    double weight[ImpactRows::capacity];
-    sum_arms(c, n, group_of, groups, weight, bodies);
-    any_apart_ = false;
-    for (int k = 0; k < groups; ++k) {
-      const ContactGroup g = group(k);
-      apart_[k] = g.last - g.first > 1 && !meet(c, g);
-      any_apart_ |= apart_[k];
-      for (int d = 0; d < 3; ++d)
-        bodies.normal[d][k] = c.normal[d][g.first];
-    }
-    constexpr double tiny = 1e-100;
-    for (int d = 0; d < 3; ++d)
-      for (int k = 0; k < groups; ++k)
-        bodies.arm[d][k] /= weight[k] + tiny;
-    finish(c, padded);
-    impact_factors(bodies, whole_vectors(groups));
-    if (any_apart_) {
-      rows_in_use_ = 0;
-      for (int k = 0; k < groups; ++k)
-        if (apart_[k])
-          take_apart(c, group(k), bodies, k);
-      flush(c);
-    }
-    for (int m = 0; m < n; ++m)
-      c.share[m] *= bodies.factor[group_of[m]];
-#pragma GCC ivdep
-    for (int m = 0; m < padded; ++m) {
-      c.gamma_n[m] *= c.share[m];
-      c.gamma_t[m] *= c.share[m];
-    }
+  void apply(Block& c, int n, const int* group_of, int groups, const Groups& group, const ImpactRows& bodies) {
+    start(c, whole_vectors(n));
+    for (int k = 0; k < groups; ++k)
+      meet(c, group(k));
+    if (bodies.alike)
+      finish<true>(c, n, group_of, bodies);
+    else
+      finish<false>(c, n, group_of, bodies);
   }
 
  private:
@@ -132,39 +114,21 @@ class DampingShares {
       c.force_sum[m] = force;
       c.work_sum[m] = force * c.overlap[m];
       const double reach = c.radius_a[m] - 0.5 * c.overlap[m];
-      c.torque[0][m] = stiffness * (c.arm[0][m] - reach * c.normal[0][m]);
-      c.torque[1][m] = stiffness * (c.arm[1][m] - reach * c.normal[1][m]);
-      c.torque[2][m] = stiffness * (c.arm[2][m] - reach * c.normal[2][m]);
-    }
-  }
-
-  /// One loop over all contacts: with one over those of each group the processor would guess each one's end.
-  template <class Block>
-  static void sum_arms(const Block& c, int n, const int* group_of, int groups, double* weight, ImpactRows& bodies) {
-    for (int k = 0; k < groups; ++k)
-      weight[k] = bodies.arm[0][k] = bodies.arm[1][k] = bodies.arm[2][k] = 0;
-    for (int m = 0; m < n; ++m) {
-      const int k = group_of[m];
-      weight[k] += c.kn[m];
       for (int d = 0; d < 3; ++d)
-        bodies.arm[d][k] += c.torque[d][m];
+        c.force[d][m] = c.torque[d][m] = stiffness * (c.arm[d][m] - reach * c.normal[d][m]);
     }
   }
 
-  /// Adds what the contacts of a group see of each other; true if all of them have one normal. Many do so later.
-  template <class Block> static bool meet(Block& c, const ContactGroup& g) {
-    double least = 1;
+  /// Adds what the contacts of a group see of each other to the sums and, weighted by stiffness, to the arms in
+  /// `force`.
+  template <class Block> static void meet(Block& c, const ContactGroup& g) {
     if (g.last - g.first > kEachWithEach) {
-      for (int k = g.first + 1; k < g.last; ++k)
-        least = std::min(least, weight_of(c, g.first, k));
-      if (least > kOneNormal)
-        meet_as_one(c, g);
-      return least > kOneNormal;
+      meet_by_tensors(c, g);
+      return;
     }
     for (int j = g.first; j < g.last; ++j)
       for (int k = j + 1; k < g.last; ++k) {
         const double weight = weight_of(c, j, k);
-        least = std::min(least, weight);
         const double stiffness_j = weight * c.kn[j], stiffness_k = weight * c.kn[k];
         const double force_j = stiffness_j * c.overlap[j], force_k = stiffness_k * c.overlap[k];
         c.stiffness_sum[j] += stiffness_k;
@@ -173,21 +137,38 @@ class DampingShares {
         c.stiffness_sum[k] += stiffness_j;
         c.force_sum[k] += force_j;
         c.work_sum[k] += force_j * c.overlap[j];
+        for (int d = 0; d < 3; ++d) {
+          c.force[d][j] += weight * c.torque[d][k];
+          c.force[d][k] += weight * c.torque[d][j];
+        }
       }
-    return least > kOneNormal;
   }
 
-  template <class Block> static void meet_as_one(Block& c, const ContactGroup& g) {
-    double stiffness = 0, force = 0, work = 0;
+  /// The same for many contacts; plain sums where all of them have one normal, which need no tensors.
+  template <class Block> static void meet_by_tensors(Block& c, const ContactGroup& g) {
+    double least = 1;
+    for (int k = g.first + 1; k < g.last; ++k)
+      least = std::min(least, weight_of(c, g.first, k));
+    const bool one_normal = least > kOneNormal;
+    SharedTensors tensors;
+    SharedTensors::Sums all;
     for (int k = g.first; k < g.last; ++k) {
-      stiffness += c.stiffness_sum[k];
-      force += c.force_sum[k];
-      work += c.work_sum[k];
+      const double inverse = 1 / (c.kn[k] + kTiny);
+      const double arm[3] = {c.torque[0][k] * inverse, c.torque[1][k] * inverse, c.torque[2][k] * inverse};
+      const double normal[3] = {c.normal[0][k], c.normal[1][k], c.normal[2][k]};
+      if (one_normal)
+        all.add(c.kn[k], c.overlap[k], arm);
+      else
+        tensors.add(c.kn[k], c.overlap[k], normal, arm);
     }
     for (int k = g.first; k < g.last; ++k) {
-      c.stiffness_sum[k] = stiffness;
-      c.force_sum[k] = force;
-      c.work_sum[k] = work;
+      const double normal[3] = {c.normal[0][k], c.normal[1][k], c.normal[2][k]};
+      const SharedTensors::Sums sums = one_normal ? all : tensors.along(normal);
+      c.stiffness_sum[k] = sums.stiffness;
+      c.force_sum[k] = sums.force;
+      c.work_sum[k] = sums.work;
+      for (int d = 0; d < 3; ++d)
+        c.force[d][k] = sums.arm[d];
     }
   }
 
@@ -197,62 +178,35 @@ class DampingShares {
     return cosine * cosine;
   }
 
-  template <class Block> static void finish(Block& c, int n) {
+  /// Share and impact factor of each contact, from its sums. Whole vectors at a time; unused lanes take the last group.
+  template <bool alike, class Block>
+  static void finish(Block& c, int n, const int* group_of, const ImpactRows& bodies) {
+    for (int start = 0; start < n; start += contact_width) {
+      ImpactTable<contact_width> pairs;
+      pairs.copy(0, bodies, 0, false);
+      for (int k = 0; k < contact_width; ++k)
+        pairs.copy(k, bodies, group_of[std::min(start + k, n - 1)], alike);
+      double factor[contact_width];
 #pragma GCC ivdep
-    for (int m = 0; m < n; ++m)
-      c.share[m] = damping_share(c.kn[m], c.stiffness_sum[m], c.force_sum[m], c.work_sum[m]);
-  }
-
-  /// A row of its own for each contact of a group whose normals disagree.
-  template <class Block> void take_apart(Block& c, const ContactGroup& g, ImpactRows& bodies, int k) {
-    bodies.factor[k] = 1;
-    const bool many = g.last - g.first > kEachWithEach;
-    SharedTensors tensors;
-    for (int j = g.first; many && j < g.last; ++j) {
-      const double reach = c.radius_a[j] - 0.5 * c.overlap[j];
-      const double n[3] = {c.normal[0][j], c.normal[1][j], c.normal[2][j]};
-      const double arm[3] = {c.arm[0][j] - reach * n[0], c.arm[1][j] - reach * n[1], c.arm[2][j] - reach * n[2]};
-      tensors.add(c.kn[j], c.overlap[j], n, arm);
-    }
-    constexpr double tiny = 1e-100;
-    for (int m = g.first; m < g.last; ++m) {
-      const double n[3] = {c.normal[0][m], c.normal[1][m], c.normal[2][m]};
-      SharedTensors::Sums sums;
-      if (many) {
-        sums = tensors.along(n);
-        c.share[m] = damping_share(c.kn[m], sums.stiffness, sums.force, sums.work);
-      } else {
-        sums.stiffness = c.stiffness_sum[m];
-        for (int j = g.first; j < g.last; ++j) {
-          const double weight = j == m ? 1 : weight_of(c, j, m);
-          for (int d = 0; d < 3; ++d)
-            sums.arm[d] += weight * c.torque[d][j];
-        }
+      for (int k = 0; k < contact_width; ++k) {
+        const int m = start + k;
+        const double per_stiffness = 1 / (c.stiffness_sum[m] + kTiny);
+        factor[k] = impact_factor<alike>(pairs, k, c.normal[0][m], c.normal[1][m], c.normal[2][m],
+                                         c.force[0][m] * per_stiffness, c.force[1][m] * per_stiffness,
+                                         c.force[2][m] * per_stiffness);
       }
-      const int row = rows_in_use_++;
-      rows_.copy_bodies(row, bodies, k);
-      for (int d = 0; d < 3; ++d) {
-        rows_.normal[d][row] = n[d];
-        rows_.arm[d][row] = sums.arm[d] / (sums.stiffness + tiny);
+#pragma GCC ivdep
+      for (int k = 0; k < contact_width; ++k) {
+        const int m = start + k;
+        const double share = damping_share(c.kn[m], c.stiffness_sum[m], c.force_sum[m], c.work_sum[m]) * factor[k];
+        c.share[m] = share;
+        c.gamma_n[m] *= share;
+        c.gamma_t[m] *= share;
       }
-      contact_of_[row] = m;
-      if (rows_in_use_ == ImpactRows::capacity)
-        flush(c);
     }
   }
 
-  template <class Block> void flush(Block& c) {
-    impact_factors(rows_, whole_vectors(rows_in_use_));
-    for (int k = 0; k < rows_in_use_; ++k)
-      c.share[contact_of_[k]] *= rows_.factor[k];
-    rows_in_use_ = 0;
-  }
-
-  ImpactRows rows_ = {};
-  int contact_of_[ImpactRows::capacity];
-  bool apart_[ImpactRows::capacity];
-  bool any_apart_ = false;
-  int rows_in_use_ = 0;
+  static constexpr double kTiny = 1e-100; ///< keeps 0/0 out where an overlap rounds to 0
 };
 
 } // namespace eccentra::contact

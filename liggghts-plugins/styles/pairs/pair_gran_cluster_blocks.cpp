@@ -191,13 +191,12 @@ template <class Block> void PairGranCluster::find_contacts_of_spheres(Block& c) 
 /// Adds what the contacts of a pair, which begin at `first`, have in common.
 template <class Block> void PairGranCluster::add_pair(Block& c, const WaitingPair& waiting, int first) {
   const contact::BodyState &body_a = *waiting.a, &body_b = *waiting.b;
-  const double *va = body_a.v, *vb = body_b.v, *wa = body_a.omega, *wb = body_b.omega;
-  const double offset[3] = {waiting.to_b[0], waiting.to_b[1], waiting.to_b[2]};
+  // In registers throughout: numbers that are written one by one are not read back as a vector at once.
+  const contact::Double4 va = contact::load3(body_a.v), vb = contact::load3(body_b.v);
+  const contact::Double4 wb = contact::load3(body_b.omega);
   // Of B's matter, were it at A's centre.
-  double velocity[3] = {va[0] - vb[0] + (wb[1] * offset[2] - wb[2] * offset[1]),
-                        va[1] - vb[1] + (wb[2] * offset[0] - wb[0] * offset[2]),
-                        va[2] - vb[2] + (wb[0] * offset[1] - wb[1] * offset[0])};
-  double spin[3] = {wa[0] - wb[0], wa[1] - wb[1], wa[2] - wb[2]};
+  contact::Double4 velocity = va - vb + contact::cross(wb, waiting.to_b);
+  contact::Double4 spin = contact::load3(body_a.omega) - wb;
   if (arguments_.synchronised && advance_)
     contact::to_middle_of_step(velocity, spin, va, vb, wb, 0.5 * update->dt);
   const int number = pairs_in_block_++, last = waiting.last_contact;
@@ -231,7 +230,7 @@ template <class Block> void PairGranCluster::add_pair(Block& c, const WaitingPai
   pair.old_last = old_first[1];
   near_->next.first[waiting.number + 1] = last - first;
   for (int k = 0; k < 3; ++k)
-    pairs_.offset[k][number] = offset[k];
+    pairs_.offset[k][number] = waiting.to_b[k];
 }
 
 /// Masses and materials of a pair; at the start of a block for the whole of it: maybe the next pairs are like this one.
@@ -261,6 +260,7 @@ void PairGranCluster::fill_materials(Block& c, const WaitingPair& waiting, int f
 void PairGranCluster::fill_inertia(const WaitingPair& waiting, int number) {
   const NearPair& p = near_->pairs[waiting.number];
   one_inertia_ = one_kind_ && number == 0 && p.surface_a->equal_moments && p.surface_b->equal_moments;
+  pairs_.alike = one_inertia_;
   const int last = one_inertia_ ? contact::ContactBlock::capacity : number + 1;
   const double *inverse_a = waiting.a->inverse_inertia, *inverse_b = waiting.b->inverse_inertia;
   for (int k = 0; k < 6; ++k) {
