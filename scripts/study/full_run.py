@@ -15,6 +15,7 @@ CELL_LENGTH = 12 / 243  # of the paper's mesh along the hole [m]
 ACROSS, AROUND = 12, 48
 FLUID_STEP = 20e-3
 PORTIONS = 20e-3  # time between two insertions [s]: rarer ones push the fluid out in jerks
+REPORT = 0.1  # [s] between two rows of a long run; where steps are compared each step has a row, or all rows would be those after an insertion
 MOST_PICTURES = 60  # of a run: they bound what it takes on the disk
 TELL = 60  # seconds from one line of progress to the next
 NOTE = "note.json"  # beside the case: the builds that computed it and the CPU time that they took
@@ -71,7 +72,7 @@ def options_of(chosen, level, critical):
     return {"length": chosen.length, "cells": cells_of(chosen.length), "inclination": chosen.angle, "velocity": chosen.velocity,
             "entry": chosen.velocity, "rpm": chosen.rpm, "portions": PORTIONS, "fluid_step": chosen.fluid_step, "interval": interval,
             "seconds": chosen.end, "ranks": chosen.ranks, "bodies": 1, "snapshots": snapshots_of(chosen),
-            "report": max(1, round(0.1 / chosen.fluid_step)), **section.level_words(level)}
+            "report": 1 if chosen.accuracy else max(1, round(REPORT / chosen.fluid_step)), **section.level_words(level)}
 
 
 def snapshots_of(chosen):
