@@ -117,6 +117,7 @@ void write_case(const BoxCase& box, const fs::path& folder) {
   write(folder / "0/p", "volScalarField",
         "dimensions [0 2 -2 0 0 0 0]; internalField uniform 0; " + boundary(box, "zeroGradient"));
   std::ofstream(folder / "in.dem") << box.script;
+  std::ofstream(folder / "bodies") << box.bodies;
 }
 
 } // namespace

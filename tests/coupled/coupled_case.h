@@ -25,6 +25,7 @@ struct BoxCase {
   std::string control;      ///< further lines of controlDict
   std::string coupling;     ///< further lines of couplingProperties
   std::string script;       ///< DEM script
+  std::string bodies;       ///< file `bodies` beside it, for create_bodies
 };
 
 struct Outcome {
