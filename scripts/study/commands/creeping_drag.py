@@ -3,13 +3,14 @@
 """Creeping drag of spheres and spheroids in Herschel-Bulkley fluid, computed with annulusFoam, beside the two terms of eq (23)."""
 import math
 
-from .. import charts, options, runs, tables, wedge
+from .. import charts, least_dissipation, options, runs, tables, wedge
 
 BINGHAM, INDICES, ASPECTS = (0.0, 0.1, 1.0, 10.0, 100.0), (1.0, 0.8, 0.6, 0.4), (1.0, 2.0, 0.5)
 COARSE, FINE = (48, 32), (108, 72)  # beside the mesh of wedge.Case, each 1.5 times as fine as the one before
 ORDER = 1.5 ** 2 - 1  # what the change from mesh to mesh is divided by for the error that is left, at second order
 CHECKED = (1.0, 0.6)  # indices of the further checks
 OUTER = {20.0: 60, 100.0: 84, 200.0: 96}  # radii of the outer sphere, beside that of wedge.Case, with the radial cells
+TRIAL = {"outer": 2000.0, "elements": 24, "modes": 4}  # of least_dissipation, which has the index of each point at Bn = 0
 ANSLEY_SMITH = 7 * math.pi / 24
 AT_REST = 1 / (18 * 0.143 / 3)  # C_s/Bn of Beris et al. 1985: (pi/6)/(0.143/3)/(3 pi)
 
@@ -25,11 +26,15 @@ def terms(case):
 
 
 def without_outer_sphere(value, case):
-    """A Newtonian drag over the factor of concentric spheres; mud that does not yield moves with the outer sphere."""
+    """A Newtonian drag over the factor of concentric spheres, the inner one as large as the sphere of this drag; mud that does not yield moves with
+    the outer sphere."""
     if case.bingham or case.index != 1:
         return value
-    p = 1 / case.outer
-    return value * (1 - 9 / 4 * p + 5 / 2 * p ** 3 - 9 / 4 * p ** 5 + p ** 6) / (1 - p ** 5)
+    alone = value
+    for _ in range(50):
+        p = (alone if case.aspect != 1 else 1) / case.outer
+        alone = value * (1 - 9 / 4 * p + 5 / 2 * p ** 3 - 9 / 4 * p ** 5 + p ** 6) / (1 - p ** 5)
+    return alone
 
 
 def cross_coefficient(points):
@@ -49,6 +54,12 @@ def checks(chosen):
         "cap of 100": [(case, case._replace(cap=100.0)) for case in spheres],
         "cap of 1000": [(case, case._replace(cap=1000.0)) for case in power_law + spheres],
         **{f"outer radius of {outer:g}": [(case, case._replace(outer=outer, radial=radial)) for case in far] for outer, radial in OUTER.items()}}
+
+
+def bound_job(n):
+    """An upper bound of C_s at Bn = 0 that annulusFoam has no part in."""
+    return runs.Job(f"least dissipation, n {n:g}", {"what": "least dissipation", "index": n, **TRIAL},
+                    lambda folder: {"drag": least_dissipation.power_law_factor(n, **TRIAL)}, 3.0)
 
 
 def name_of(case):
@@ -85,7 +96,8 @@ def main():
     wanted.update({case._replace(radial=COARSE[0], polar=COARSE[1]): None for case in main_cases})
     wanted.update({changed: None for pairs in checked.values() for _, changed in pairs})
     jobs = {case: wedge.job(chosen.build, case, name_of(case)) for case in wanted}
-    found = chosen.store.run_all("creeping drag", jobs.values())
+    bounds = {n: bound_job(n) for n in chosen.indices} if 0 in chosen.bingham else {}
+    found = chosen.store.run_all("creeping drag", [*jobs.values(), *bounds.values()])
     if chosen.plan:
         return 0
     failed = [f"{job.name}: {found[job.key()]['failed']}" for job in jobs.values() if "failed" in found[job.key()]]
@@ -113,6 +125,10 @@ def main():
                 c, worst = cross_coefficient(points)
                 fits.append([n, f"{c:.3f}", f"{100 * worst:.1f}"])
     page.append(tables.publish(chosen, "cross", "c of C_s = X(n) + 1.1655 Bn + c sqrt(Bn), and its largest deviation in %", ["n", "c", "deviation"], fits))
+    limits = [[n, f"{found[job.key()]['drag']:.4f}", f"{power_law_factor(n):.4f}", f"{100 * (power_law_factor(n) / found[job.key()]['drag'] - 1):+.1f}"]
+              for n, job in bounds.items() if runs.good(found[job.key()])]
+    page.append(tables.publish(chosen, "power-law", f"C_s at Bn = 0 by least dissipation, outer radius {TRIAL['outer']:g}, and X(n) of Renaud et al. with its "
+                               "deviation in %", ["n", "C_s", "X", "percent"], limits))
     yielding = lambda n: sorted((case.bingham, value) for case, value in drag.items() if case in main_cases and case.aspect == 1 and case.index == n
                                 and case.bingham)
     series = [charts.Series(f"n = {n:g}, computed", [charts.Point(b, value / terms(wedge.Case(index=n, bingham=b))) for b, value in yielding(n)],
