@@ -38,16 +38,21 @@ struct ImpactRows : ImpactTable<ContactBlock::capacity + contact_width> {
   bool alike = false; ///< all pairs have the ease and the inertia of the first
 };
 
-/// sqrt(m_c / m*), in (0, 1], of an impact of pair `k` along a unit normal `n` at `a` from A's centre [m]. An impact
-/// off centre has to bring to rest only m_c, with 1/m_c = 1/m_A + 1/m_B + (r_A x n) . I_A^-1 (r_A x n) + the same of B;
-/// dampers tuned to m* = m_A m_B / (m_A + m_B) take too much (rim against rim of two disks, m_c = 0.39 m*: e = 0.9
-/// becomes 0.84). Damping goes with the root of the mass. `alike`: see ImpactRows.
+/// A ratio of two numbers above 0, kept apart: a loop over contacts divides once.
+struct Ratio {
+  double over, under;
+};
+
+/// m_c / m*, in (0, 1], of an impact of pair `k` along a unit normal `n`, at the arm `a` / `weight` from A's centre
+/// [m]. An impact off centre has to bring to rest only m_c, with 1/m_c = 1/m_A + 1/m_B + (r_A x n) . I_A^-1 (r_A x n) +
+/// the same of B; dampers tuned to m* = m_A m_B / (m_A + m_B) take too much (rim against rim of two disks, m_c = 0.39
+/// m*: e = 0.9 becomes 0.84). Damping goes with the root of the mass. `alike`: see ImpactRows.
 template <bool alike, int length>
-inline double impact_factor(const ImpactTable<length>& p, int k, double nx, double ny, double nz, double ax, double ay,
-                            double az) {
-  constexpr double tiny = 1e-300; // keeps 0/0 out of unused rows
+inline Ratio impact_mass(const ImpactTable<length>& p, int k, double nx, double ny, double nz, double ax, double ay,
+                         double az, double weight) {
+  constexpr double tiny = 1e-200; // 1 where nothing presses, and in unused rows
   const int row = alike ? 0 : k;
-  const double bx = ax - p.offset[0][k], by = ay - p.offset[1][k], bz = az - p.offset[2][k];
+  const double bx = ax - weight * p.offset[0][k], by = ay - weight * p.offset[1][k], bz = az - weight * p.offset[2][k];
   // r x n, and what A turns by an impulse along n there; likewise B.
   double x = ay * nz - az * ny, y = az * nx - ax * nz, z = ax * ny - ay * nx;
   const double turn_a = p.inverse_a[0][row] * x * x + p.inverse_a[1][row] * y * y + p.inverse_a[2][row] * z * z +
@@ -57,8 +62,8 @@ inline double impact_factor(const ImpactTable<length>& p, int k, double nx, doub
   z = bx * ny - by * nx;
   const double turn_b = p.inverse_b[0][row] * x * x + p.inverse_b[1][row] * y * y + p.inverse_b[2][row] * z * z +
                         2 * (p.inverse_b[3][row] * x * y + p.inverse_b[4][row] * x * z + p.inverse_b[5][row] * y * z);
-  const double straight = p.ease_a[row] + p.ease_b[row];
-  return std::sqrt(straight / (straight + p.ease_a[row] * turn_a + p.ease_b[row] * turn_b + tiny));
+  const double straight = (p.ease_a[row] + p.ease_b[row]) * weight * weight + tiny;
+  return {straight, straight + p.ease_a[row] * turn_a + p.ease_b[row] * turn_b};
 }
 
 } // namespace eccentra::contact

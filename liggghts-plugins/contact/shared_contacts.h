@@ -21,10 +21,11 @@ namespace eccentra::contact {
 /// one normal share, contacts at right angles do not know of each other. It varies smoothly as contacts come and go,
 /// and as only dissipation is scaled, the elastic forces stay those of the potential sum: sharing cannot create energy.
 /// Secant stiffness serves as S within one model. `sum`, `force` and `work` are the weighted sums of S, S d and S d^2.
-inline double damping_share(double stiffness, double sum, double force, double work) {
-  constexpr double tiny = 1e-100; // keeps 0/0 out where an overlap rounds to 0
-  const double ratio = force / (sum + tiny) * std::sqrt(stiffness / (work + tiny));
-  return sum > stiffness && work > 0 && ratio < 1 ? ratio : 1;
+/// What is returned is the square of the fraction.
+inline Ratio squared_damping_share(double stiffness, double sum, double force, double work) {
+  const double over = force * force * stiffness, under = sum * sum * work;
+  const bool shares = sum > stiffness && over < under;
+  return {shares ? over : 1, shares ? under : 1};
 }
 
 /// What many contacts of one pair of bodies see of each other along a normal, by tensors: sums weighted by n n^T.
@@ -186,19 +187,13 @@ class DampingShares {
       pairs.copy(0, bodies, 0, false);
       for (int k = 0; k < contact_width; ++k)
         pairs.copy(k, bodies, group_of[std::min(start + k, n - 1)], alike);
-      double factor[contact_width];
 #pragma GCC ivdep
       for (int k = 0; k < contact_width; ++k) {
         const int m = start + k;
-        const double per_stiffness = 1 / (c.stiffness_sum[m] + kTiny);
-        factor[k] = impact_factor<alike>(pairs, k, c.normal[0][m], c.normal[1][m], c.normal[2][m],
-                                         c.force[0][m] * per_stiffness, c.force[1][m] * per_stiffness,
-                                         c.force[2][m] * per_stiffness);
-      }
-#pragma GCC ivdep
-      for (int k = 0; k < contact_width; ++k) {
-        const int m = start + k;
-        const double share = damping_share(c.kn[m], c.stiffness_sum[m], c.force_sum[m], c.work_sum[m]) * factor[k];
+        const Ratio mass = impact_mass<alike>(pairs, k, c.normal[0][m], c.normal[1][m], c.normal[2][m], c.force[0][m],
+                                              c.force[1][m], c.force[2][m], c.stiffness_sum[m]);
+        const Ratio part = squared_damping_share(c.kn[m], c.stiffness_sum[m], c.force_sum[m], c.work_sum[m]);
+        const double share = std::sqrt(part.over * mass.over / (part.under * mass.under));
         c.share[m] = share;
         c.gamma_n[m] *= share;
         c.gamma_t[m] *= share;
