@@ -225,6 +225,8 @@ class Study:
                     self.group(scene, body, what, unit, dry_levels, of, scene, lambda r: r["value"], RESTITUTION_DRY, True)
             for point in self.size.points if "section" in self.scenes else ():
                 for quantity, (what, unit, scale) in SECTION_RESULTS.items():
+                    if quantity == "height" and point[0] == 0:  # a vertical hole has no low side
+                        continue
                     title = f"annulus {point[0]} deg, {point[1]} m/s: {what}"
                     self.group(f"section {point[0]} {point[1]} {quantity}", body, title, unit, wet_levels, of, point,
                                lambda r, q=quantity, s=scale: r["mean"][q][0] * s, RESTITUTION_SECTION, JUDGED_BY[point[0]] == quantity,

@@ -11,6 +11,7 @@ DEM_STEP = 5e-3 / 64
 BASE = {"velocity": VELOCITY, "length": LENGTH, "cells": "8 32 10", "fluid_step": 5e-3, "interval": 64, "safety": 2}
 PERCENT = 2.0  # the accuracy that the plain words ask for
 RESULTS = ("gradient", "flux", "height")  # of section.QUANTITIES
+UNKNOWN = (math.nan, math.nan)  # the height in a vertical hole, which has no low side
 
 
 @dataclasses.dataclass(frozen=True)
@@ -95,9 +96,10 @@ class Study:
                 self.failures.append(f"{family} {name}, {inclination} deg: {failed}")
             values = {}
             for quantity in RESULTS:
-                mean, error = measures.mean_and_error([r["mean"][quantity][0] for r in good])
-                if len(good) == 1:  # one seed: its error in time
-                    error = good[0]["mean"][quantity][1]
+                found = [r["mean"].get(quantity, UNKNOWN) for r in good]
+                mean, error = measures.mean_and_error([value for value, _ in found])
+                if len(found) == 1:  # one seed: its error in time
+                    error = found[0][1]
                 values[quantity] = (mean, error)
             means[name] = (values, measures.mean_and_error([r["cpu"] for r in good])[0], failed)
         for name, (values, cpu, failed) in means.items():

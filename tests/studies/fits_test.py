@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tests of the fits of scripts/study: roots of noisy results, predictions of errors; and of the script that calibrates spheres."""
 import csv
+import dataclasses
 import math
 import os
 import pathlib
@@ -15,7 +16,8 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("ECCENTRA_BUILD", ROOT / "build"))
 sys.path.insert(0, str(ROOT / "scripts"))
-from study import calibration, forecast, least_squares, level_study, levels, prediction  # noqa: E402
+from study import calibration, forecast, least_squares, level_study, levels, method_study, prediction, timing  # noqa: E402
+from study.commands import accuracy_cost  # noqa: E402
 
 
 class LeastSquares(unittest.TestCase):
@@ -69,6 +71,37 @@ class Calibration(unittest.TestCase):
         self.assertEqual(calibration.root([(0.0, 1.0, 0.1), (1.0, 1.1, 0.1)], 2.0, 0.1).side, "flat")
         self.assertIsNone(calibration.next_coefficient(rising, 6.0, 0.1, 0.01))
         self.assertEqual(calibration.root(rising, 6.0, 0.1).words(), "at least 1")
+
+
+class Reported:
+    """A store in which every run has ended, with what the report of a vertical hole has: no height of the solids' centre."""
+    RESULT = {"mean": {"flux": (2e-4, 1e-6), "gradient": (300.0, 1.0)}, "cpu": 2.0, "wall": 3.0, "critical": 1e-4, "contacts": 3,
+              "parts": dict.fromkeys(timing.PARTS, 0.1)}
+
+    def run_all(self, _, jobs):
+        return {job.key(): self.RESULT for job in jobs}
+
+    def result_of(self, _):
+        return self.RESULT
+
+
+class VerticalHole(unittest.TestCase):
+    """The study of the annulus at 0 degrees, where solids have no height: its runs take minutes, so that none is made here."""
+
+    def test_levels_and_methods_do_without_it(self):
+        size = accuracy_cost.SIZES["quick"]
+        with tempfile.TemporaryDirectory() as folder:
+            study = level_study.Study(Reported(), BUILD, dataclasses.replace(size, points=((0, 0.58),)), ("cube",), ("section",), None, 2,
+                                      pathlib.Path(folder))
+            self.assertEqual(study.run(), [])
+            self.assertEqual([(group.scene, group.judged) for group in study.groups],
+                             [("section 0 0.58 flux", True), ("section 0 0.58 gradient", False)])
+            self.assertEqual(study.groups[0].rows[0].value, 200)
+            methods = method_study.Study(Reported(), BUILD, dataclasses.replace(size, methods=dataclasses.replace(size.methods, inclinations=(0,))),
+                                         pathlib.Path(folder))
+            self.assertEqual(methods.run(), [])
+            self.assertTrue(all(math.isnan(row["value"][0]) == (row["quantity"] == "height") for row in methods.rows))
+            self.assertTrue(methods.write())
 
 
 class Prediction(unittest.TestCase):
