@@ -34,9 +34,10 @@ double pressure_drop(double cells_per_diameter, int layers) {
   std::ostringstream script;
   script << script_head(box, 5e-4);
   for (int layer = 0; layer < layers; ++layer)
-    for (int i = 0; i < kWide * kWide; ++i)
-      script << "create_atoms 1 single " << (i % kWide + 0.5) * kDiameter << ' ' << (i / kWide + 0.5) * kDiameter << ' '
-             << (layer + 0.5) * kDiameter << " units box\n";
+    for (int row = 0; row < kWide; ++row)
+      for (int i = 0; i < kWide; ++i)
+        script << "create_atoms 1 single " << (i + 0.5) * kDiameter << ' ' << (row + 0.5) * kDiameter << ' '
+               << (layer + 0.5) * kDiameter << " units box\n";
   script << "set group all diameter 6.35e-3 density 2619\nfix hold all freeze\n"
             "fix mud all fluid/force rheology herschel_bulkley 0 0.01 1 density 1000 drag chien pressure_gradient on\n"
             "fix flow all fluid/couple link solver every 10\nrun 400\n";
