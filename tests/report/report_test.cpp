@@ -166,24 +166,32 @@ std::vector<bool> coloured_columns(const fs::path& file, double top) {
   return columns;
 }
 
+/// A file of spheres of 5 mm at rest, at these places ("x y z", a line each), and the log of a script.
+void make_row(const fs::path& folder, int count, const std::string& places, const std::string& log) {
+  std::ostringstream text;
+  text << "# vtk DataFile Version 2.0\nrow\nASCII\nDATASET POLYDATA\nPOINTS " << count << " float\n"
+       << places << "POINT_DATA " << count << "\nSCALARS radius float 1\nLOOKUP_TABLE default\n";
+  for (int i = 0; i < count; ++i)
+    text << "0.005\n";
+  text << "VECTORS v float\n";
+  for (int i = 0; i < count; ++i)
+    text << "0 0 0\n";
+  write_file(folder / "particles_100.vtk", text.str());
+  write_file(folder / "log.liggghts", log);
+}
+
 // A row of spheres at rest, of which the outermost stand a little apart, and one that may have rolled away: the row is
 // whole in the picture, which it fills.
 TEST(Report, CutsNoBodyAtTheSideOfThePicture) {
   for (const bool rolled : {false, true}) {
     const fs::path folder = fresh_folder("row");
-    std::ostringstream points, radii, still;
-    points << "# vtk DataFile Version 2.0\nrow\nASCII\nDATASET POLYDATA\nPOINTS 61 float\n";
-    for (int i = 0; i < 61; ++i) {
-      points << (i == 0 ? 0.19 : i < 60 ? 0.2 + 0.2 * i / 59 : rolled ? 5 : 0.41) << " 0 0.005\n";
-      radii << "0.005\n";
-      still << "0 0 0\n";
-    }
-    write_file(folder / "particles_100.vtk", points.str() +
-                                                 "POINT_DATA 61\nSCALARS radius float 1\nLOOKUP_TABLE default\n" +
-                                                 radii.str() + "VECTORS v float\n" + still.str());
-    write_file(folder / "log.liggghts", "Created orthogonal box = (-1 -1 0) to (6 1 1)\ntimestep 1e-3\n"
-                                        "fix weight all gravity 9.81 vector 0 0 -1\n"
-                                        "fix floor all wall/gran model hertz primitive type 1 zplane 0\n");
+    std::ostringstream places;
+    for (int i = 0; i < 61; ++i)
+      places << (i == 0 ? 0.19 : i < 60 ? 0.2 + 0.2 * i / 59 : rolled ? 5 : 0.41) << " 0 0.005\n";
+    make_row(folder, 61, places.str(),
+             "Created orthogonal box = (-1 -1 0) to (6 1 1)\ntimestep 1e-3\n"
+             "fix weight all gravity 9.81 vector 0 0 -1\n"
+             "fix floor all wall/gran model hertz primitive type 1 zplane 0\n");
     const ProgramResult run = report({folder});
     ASSERT_EQ(run.status, 0) << run.output;
     const std::vector<bool> columns = coloured_columns(folder / "report/scene.png", 0.4);
@@ -199,19 +207,13 @@ TEST(Report, CutsNoBodyAtTheSideOfThePicture) {
 // Spheres along the middle of a pipe that lies and is shorter than wide: a line from its side, a spot along its axis.
 TEST(Report, SeesAPipeFromItsSide) {
   const fs::path folder = fresh_folder("pipe");
-  std::ostringstream points, radii, still;
-  points << "# vtk DataFile Version 2.0\npipe\nASCII\nDATASET POLYDATA\nPOINTS 30 float\n";
-  for (int i = 0; i < 30; ++i) {
-    points << "0 0 " << 0.005 + 0.09 * i / 29 << "\n";
-    radii << "0.005\n";
-    still << "0 0 0\n";
-  }
-  write_file(folder / "particles_100.vtk", points.str() +
-                                               "POINT_DATA 30\nSCALARS radius float 1\nLOOKUP_TABLE default\n" +
-                                               radii.str() + "VECTORS v float\n" + still.str());
-  write_file(folder / "log.liggghts", "Created orthogonal box = (-1 -1 0) to (1 1 0.1)\ntimestep 1e-3\n"
-                                      "fix weight all gravity 9.81 vector 0 -0.9 -0.4\n"
-                                      "fix hole all wall/gran model hertz primitive type 1 zcylinder 0.052 0 0\n");
+  std::ostringstream places;
+  for (int i = 0; i < 30; ++i)
+    places << "0 0 " << 0.005 + 0.09 * i / 29 << "\n";
+  make_row(folder, 30, places.str(),
+           "Created orthogonal box = (-1 -1 0) to (1 1 0.1)\ntimestep 1e-3\n"
+           "fix weight all gravity 9.81 vector 0 -0.9 -0.4\n"
+           "fix hole all wall/gran model hertz primitive type 1 zcylinder 0.052 0 0\n");
   const ProgramResult run = report({folder});
   ASSERT_EQ(run.status, 0) << run.output;
   const std::vector<bool> columns = coloured_columns(folder / "report/scene.png", 0.4);

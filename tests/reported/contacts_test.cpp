@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts that once held what should have fallen.
 #include "reported/throwing_session.h"
+#include "support/groove_scene.h"
+#include "support/row_properties.h"
 
 #include "shape/cluster_shape.h"
 
@@ -22,19 +24,9 @@ constexpr double kLarge = 5e-3, kSmall = 0.25e-3, kDensity = 2500; // radii [m],
 /// Equal spheres in a row along x, each touching the next.
 shape::ClusterShape row(int count, double radius) {
   std::vector<shape::Sphere> spheres;
-  double spread = 0; // mean square distance along the row
-  for (int k = 0; k < count; ++k) {
-    const double x = (2 * k - count + 1) * radius;
-    spheres.push_back({Eigen::Vector3d(x, 0, 0), radius});
-    spread += x * x / count;
-  }
-  const double own = 0.4 * radius * radius;
-  shape::MassProperties properties;
-  properties.volume = count * 4. / 3 * M_PI * std::pow(radius, 3);
-  properties.surface = count * 4 * M_PI * radius * radius;
-  properties.centre.setZero();
-  properties.inertia_per_mass = Eigen::Vector3d(own, own + spread, own + spread).asDiagonal();
-  return {"row of " + std::to_string(count), spheres, properties};
+  for (int k = 0; k < count; ++k)
+    spheres.push_back({Eigen::Vector3d((2 * k - count + 1) * radius, 0, 0), radius});
+  return {"row of " + std::to_string(count), spheres, row_properties(count, radius, 2 * radius, 0)};
 }
 
 /// A row's own axes are its principal ones: it is turned so that it lies along x.
@@ -60,21 +52,10 @@ double height_of_grain(const Groove& groove, const std::string& arguments) {
   const double orbit = std::sqrt(std::pow(kLarge + kSmall, 2) - std::pow(kLarge - half, 2)), angle = M_PI / 180;
   char place[96];
   std::snprintf(place, sizeof place, "0.005 %.12g %.12g", orbit * std::sin(angle), orbit * std::cos(angle));
-  std::string script = "atom_style granular\natom_modify map array\nboundary p p f\nnewton off\n"
-                       "communicate single vel yes\nunits si\n"
-                       "region box block -0.03 0.03 -0.02 0.02 -0.02 0.02 units box\ncreate_box 2 box\n"
-                       "neighbor 0.001 bin\nneigh_modify delay 0\n"
-                       "fix m1 all property/global youngsModulus peratomtype 5e8 5e8\n"
-                       "fix m2 all property/global poissonsRatio peratomtype 0.3 0.3\n"
-                       "fix m3 all property/global coefficientRestitution peratomtypepair 2 0.5 0.5 0.5 0.5\n"
-                       "fix m4 all property/global coefficientFriction peratomtypepair 2 0.5 0.5 0.5 0.5\n"
-                       "fix m5 all property/global coefficientRollingFriction peratomtypepair 2 0 0 0 0\n"
-                       "pair_style gran/cluster model hertz tangential history " +
-                       arguments + "\npair_coeff * *\ntimestep 5e-7\ncreate_atoms 2 single " + place + " units box\n";
-  script += groove.held == 2 ? "create_atoms 1 single 0.005 0 0 units box\n"
-                             : "create_atoms 1 single 0.01 0 0 units box\ncreate_atoms 1 single 0 0 0 units box\n";
-  Session session(script + "set type 1 diameter 0.01 density 2500\nset type 2 diameter 0.0005 density 2500\n"
-                           "group large type 1\ngroup fine type 2\n");
+  std::vector<std::string> held = {"0.01 0 0", "0 0 0"};
+  if (groove.held == 2)
+    held = {"0.005 0 0"};
+  Session session(groove_scene(arguments, place, held));
   if (groove.grain > 0)
     make_row(session, 1, groove.grain, kSmall);
   if (groove.held == 1)
@@ -82,7 +63,7 @@ double height_of_grain(const Groove& groove, const std::string& arguments) {
       make_row(session, tag, 1, kLarge);
   if (groove.held == 2)
     make_row(session, 2, 2, kLarge);
-  session.run("fix frz large freeze\nfix g fine gravity 9.81 vector 0 0 -1\nfix integr fine nve/cluster\n");
+  session.run(groove_motion);
   double height = orbit;
   for (int n = 0; n < 19 && height > -0.003; ++n) { // until it has fallen
     session.run("run 20000\n");

@@ -3,6 +3,7 @@
 // Cohesion, liquid bridges and dampers of every model for bodies of several sub-spheres: N contacts at once do to a
 // body of N spheres what one does to a sphere, and bridges to bodies that turn add up.
 #include "styles/pairs/all_materials.h"
+#include "support/row_properties.h"
 
 #include "fix_property_atom.h"
 
@@ -23,21 +24,13 @@ constexpr double kSpacing = 7e-3, kDensity = 2619;
 /// reaches: mass and moments are those of the former.
 shape::ClusterShape row(int count, double radius) {
   std::vector<shape::Sphere> spheres;
-  double spread = 0;
   for (int k = 0; k < count; ++k) {
     const double y = (k - 0.5 * (count - 1)) * kSpacing;
     if (k > 0)
       spheres.push_back({Eigen::Vector3d(0, y - 0.5 * kSpacing, 0), 0.5 * kSpacing - radius + 1e-4});
     spheres.push_back({Eigen::Vector3d(0, y, 0), radius});
-    spread += y * y / count;
   }
-  const double own = 0.4 * radius * radius;
-  shape::MassProperties properties;
-  properties.volume = count * 4. / 3 * M_PI * std::pow(radius, 3);
-  properties.surface = count * 4 * M_PI * radius * radius;
-  properties.centre.setZero();
-  properties.inertia_per_mass = Eigen::Vector3d(own + spread, own, own + spread).asDiagonal();
-  return {"row " + std::to_string(count), spheres, properties};
+  return {"row " + std::to_string(count), spheres, row_properties(count, radius, kSpacing, 1)};
 }
 
 void add_row(LiggghtsSession& session, int count, double radius, Start start) {

@@ -5,6 +5,7 @@
 #include "styles/bodies/bodies_scene.h"
 #include "styles/models/stock_contact.h"
 #include "styles/pairs/all_materials.h"
+#include "support/groove_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -200,22 +201,8 @@ TEST(ContactModels, AGrainInAGrooveRollsOutOfIt) {
   // rolls about the line through its two contacts and falls off at 0.148 s; with the spring of stock it clings.
   const auto height_after = [](const std::string& arguments, double time) {
     LiggghtsSession session;
-    session.script("atom_style granular\natom_modify map array\nboundary p p f\nnewton off\n"
-                   "communicate single vel yes\nunits si\n"
-                   "region box block -0.03 0.03 -0.02 0.02 -0.02 0.02 units box\ncreate_box 2 box\n"
-                   "neighbor 0.001 bin\nneigh_modify delay 0\n"
-                   "fix m1 all property/global youngsModulus peratomtype 5e8 5e8\n"
-                   "fix m2 all property/global poissonsRatio peratomtype 0.3 0.3\n"
-                   "fix m3 all property/global coefficientRestitution peratomtypepair 2 0.5 0.5 0.5 0.5\n"
-                   "fix m4 all property/global coefficientFriction peratomtypepair 2 0.5 0.5 0.5 0.5\n"
-                   "pair_style gran/cluster model hertz tangential history " +
-                   arguments +
-                   "\npair_coeff * *\ntimestep 5e-7\n"
-                   "create_atoms 2 single 0.005 2.7937481665e-5 0.0016005372526 units box\n"
-                   "create_atoms 1 single 0.01 0 0 units box\ncreate_atoms 1 single 0 0 0 units box\n"
-                   "set type 1 diameter 0.01 density 2500\nset type 2 diameter 0.0005 density 2500\n"
-                   "group large type 1\ngroup fine type 2\nfix frz large freeze\n"
-                   "fix g fine gravity 9.81 vector 0 0 -1\nfix integr fine nve/cluster\n");
+    session.script(groove_scene(arguments, "0.005 2.7937481665e-5 0.0016005372526", {"0.01 0 0", "0 0 0"}) +
+                   groove_motion);
     session.command("run " + std::to_string(static_cast<int>(time / 5e-7)));
     return session.atom().x[session.local(1)][2];
   };
