@@ -5,6 +5,8 @@
 
 namespace eccentra::contact {
 
+struct SurfaceSpheres;
+
 /// Four numbers that the compiler keeps in one register (or two), on any machine.
 typedef float Float4 __attribute__((vector_size(16)));
 typedef double Double4 __attribute__((vector_size(32)));
@@ -24,15 +26,17 @@ inline Double4 cross(Double4 a, Double4 b) {
 /// What a contact asks of a body, together: arrays of positions, velocities, masses ... of which each contact needs one
 /// row cost a cache line each. The orientation is all zero for a round body, whose own nobody sees. Fourth lanes are 0.
 struct alignas(64) BodyState {
-  double x[3];                    ///< centre of mass [m]
-  double mass;                    ///< [kg]
-  double v[3];                    ///< [m/s]
-  int type;                       ///< atom type
-  bool held;                      ///< cannot move at all
-  double omega[3];                ///< [rad/s]
-  double unused = 0;              ///< keeps the columns aligned
-  Double4 column[3] = {};         ///< of the rotation body to world
+  double x[3];                             ///< centre of mass [m]
+  double mass;                             ///< [kg]
+  double v[3];                             ///< [m/s]
+  int type;                                ///< atom type
+  bool held;                               ///< cannot move at all
+  double omega[3];                         ///< [rad/s]
+  const SurfaceSpheres* surface = nullptr; ///< its shape; where it stands it keeps the columns aligned
+  Double4 column[3] = {};                  ///< of the rotation body to world
   double inverse_inertia[6] = {}; ///< of the inertia tensor per unit mass, world frame: xx yy zz xy xz yz [1/m2]
+  double extra_radius = 0;        ///< added to the radii of the shape's spheres (plain spheres) [m]
+  int tag = 0;                    ///< of the atom
 
   /// rotation: row-major, body to world.
   void turn(const double* rotation) {

@@ -116,7 +116,7 @@ void LastForces::put_back(LAMMPS& lmp, const FixClusterBodies& bodies) {
     std::copy(rows_[i].data(), rows_[i].data() + 3, atom.f[i]);
     std::copy(rows_[i].data() + 3, rows_[i].data() + kept_values, atom.torque[i]);
   }
-  rows_.clear();
+  std::vector<Row>().swap(rows_); // its memory, too
 }
 
 void LastForces::grow(int atoms) {

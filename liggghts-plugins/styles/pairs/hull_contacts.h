@@ -43,8 +43,9 @@ class HullContacts {
     return posed;
   }
   contact::BodyPair pair(const NearPair& p, const NearPairs& near, const double* offset) {
-    return {{&posed(p.a, *p.surface_a, near.body(p.a)), p.extra_a},
-            {&posed(p.b, *p.surface_b, near.body(p.b)), p.extra_b},
+    const contact::BodyState &a = near.body(p.a), &b = near.body(p.b);
+    return {{&posed(p.a, *a.surface, a), a.extra_radius},
+            {&posed(p.b, *b.surface, b), b.extra_radius},
             {offset[0], offset[1], offset[2]}};
   }
 

@@ -44,6 +44,18 @@ void ContactList::make_room(std::size_t count) {
   more.reserve(width * room);
 }
 
+namespace {
+
+/// Frees the memory of contacts that nobody needs any more.
+void give_back(ContactList& list) {
+  std::vector<int>().swap(list.id);
+  for (auto& d : list.displacement)
+    std::vector<double>().swap(d);
+  std::vector<double>().swap(list.more);
+}
+
+} // namespace
+
 NearPairs::NearPairs(LAMMPS* lmp, FixClusterBodies& bodies, FixClusterHistory& history)
     : Pointers(lmp), bodies_(bodies), history_(history) {}
 
@@ -55,8 +67,9 @@ void NearPairs::rebuild(const NeighList& list) {
   pairs.reserve(count); // growing would need room for twice as many
   candidates.clear();
   searches.clear();
+  local_at_build_ = atom->nlocal;
+  begin_bodies();
   const int* tag = atom->tag;
-  const ShapeTable& shapes = bodies_.shapes();
   for (int n = 0; n < list.inum; ++n) {
     const int i = list.ilist[n];
     for (int m = 0; m < list.numneigh[i]; ++m) {
@@ -65,26 +78,18 @@ void NearPairs::rebuild(const NeighList& list) {
       NearPair p;
       p.a = ordered ? i : j;
       p.b = ordered ? j : i;
-      p.tag_a = tag[p.a];
-      p.tag_b = tag[p.b];
-      p.surface_a = &shapes.surface(bodies_.shape_id(p.a));
-      p.surface_b = &shapes.surface(bodies_.shape_id(p.b));
       p.search =
-          p.surface_a->single_at_centre && p.surface_b->single_at_centre ? NearPair::needless : NearPair::not_yet;
-      p.extra_a = bodies_.extra_radius(p.a);
-      p.extra_b = bodies_.extra_radius(p.b);
-      p.skin = 0;
-      p.candidate_first = p.candidate_count = 0;
+          surface_a(p).single_at_centre && surface_b(p).single_at_centre ? NearPair::needless : NearPair::not_yet;
       pairs.push_back(p);
     }
   }
   // Images of the same two bodies (periodic, or a ghost of a body of our own) keep the order of their positions.
   double** x = atom->x;
-  std::sort(pairs.begin(), pairs.end(), [x](const NearPair& p, const NearPair& q) {
-    if (p.tag_a != q.tag_a)
-      return p.tag_a < q.tag_a;
-    if (p.tag_b != q.tag_b)
-      return p.tag_b < q.tag_b;
+  std::sort(pairs.begin(), pairs.end(), [x, tag](const NearPair& p, const NearPair& q) {
+    if (tag[p.a] != tag[q.a])
+      return tag[p.a] < tag[q.a];
+    if (tag[p.b] != tag[q.b])
+      return tag[p.b] < tag[q.b];
     for (int k = 0; k < 3; ++k) {
       const double dp = x[p.b][k] - x[p.a][k], dq = x[q.b][k] - x[q.a][k];
       if (dp != dq)
@@ -100,16 +105,25 @@ void NearPairs::rebuild(const NeighList& list) {
     wakes.back().a = p.a;
     wakes.back().b = p.b;
   }
-  local_at_build_ = atom->nlocal;
-  const int bodies = atom->nlocal + atom->nghost;
   time_ = 0;
-  change_.assign(bodies, {0, 0});
-  bodies_now_.resize(bodies);
-  kind_.resize(bodies);
-  forces_.resize(bodies);
   new_list_ = true;
   take_history();
   live_ = true;
+}
+
+/// What stays as it is until the next list.
+void NearPairs::begin_bodies() {
+  const int bodies = atom->nlocal + atom->nghost;
+  change_.assign(bodies, {0, 0});
+  bodies_now_.assign(bodies, contact::BodyState());
+  kind_.resize(bodies);
+  forces_.resize(local_at_build_ + 1);
+  for (int i = 0; i < bodies; ++i) {
+    contact::BodyState& body = bodies_now_[i];
+    body.surface = &bodies_.shapes().surface(bodies_.shape_id(i));
+    body.extra_radius = bodies_.extra_radius(i);
+    body.tag = atom->tag[i];
+  }
 }
 
 void NearPairs::update_bodies(double dt, int held_groups) {
@@ -120,9 +134,8 @@ void NearPairs::update_bodies(double dt, int held_groups) {
     kinds_.clear();
   for (int i = 0; i < bodies; ++i) {
     contact::BodyState& body = bodies_now_[i];
-    const contact::SurfaceSpheres& surface = bodies_.shapes().surface(bodies_.shape_id(i));
+    const contact::SurfaceSpheres& surface = *body.surface;
     if (new_list_) {
-      body = contact::BodyState();
       constexpr double straight[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
       body.turn(straight); // of round bodies for good: others are seen from their frame
       body.mass = atom->rmass[i];
@@ -197,7 +210,7 @@ double NearPairs::relative_speed(const NearPair& p, const double* offset) const 
                        v[2] - (wa[0] * offset[1] - wa[1] * offset[0])};
   const double w[3] = {wb[0] - wa[0], wb[1] - wa[1], wb[2] - wa[2]};
   return std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) +
-         p.bound_b() * std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+         bound_b(p) * std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
 }
 
 double NearPairs::speed_of_centres(const NearPair& p) const {
@@ -218,7 +231,7 @@ void NearPairs::note_look(int pair, const double* offset, double room, bool may_
   wake.reach = 0;
   if (!p.direct())
     wake.reach = static_cast<float>(std::sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]) +
-                                    room + p.bound_b());
+                                    room + bound_b(p));
   wake.room = static_cast<float>(room);
 }
 
@@ -239,18 +252,17 @@ void NearPairs::take_history() {
   std::size_t count = 0;
   for (const NearPair& p : pairs) {
     const bool a_is_local = p.a < atom->nlocal;
-    const int partner = a_is_local ? p.tag_b : p.tag_a;
+    const int partner = tag(a_is_local ? p.b : p.a);
     for (const Touch& touch : history_.touches(a_is_local ? p.a : p.b))
       count += touch.partner == partner;
   }
   contacts.make_room(count);
-  next.make_room(count);
   std::vector<const Touch*> found;
   for (std::size_t n = 0; n < pairs.size(); ++n) {
     const NearPair& p = pairs[n];
     contacts.first[n] = contacts.size();
     const bool a_is_local = p.a < atom->nlocal;
-    const int partner = a_is_local ? p.tag_b : p.tag_a;
+    const int partner = tag(a_is_local ? p.b : p.a);
     found.clear();
     for (const Touch& touch : history_.touches(a_is_local ? p.a : p.b))
       if (touch.partner == partner)
@@ -281,6 +293,11 @@ void NearPairs::hand_over(bool keep) {
   if (!live_)
     return;
   live_ = keep;
+  give_back(next); // its memory is about to be needed
+  if (!keep) {
+    candidates = contact::CandidateStore();
+    std::vector<contact::RelativePose>().swap(searches);
+  }
   for (int i = 0; i < atom->nlocal; ++i)
     history_.touches(i).clear();
   for (int i = 0; i < atom->nlocal; ++i)
@@ -303,7 +320,7 @@ void NearPairs::hand_over(bool keep) {
   for (std::size_t n = 0; n < pairs.size(); ++n) {
     const int count = contacts.first[n + 1] - contacts.first[n];
     if (count > 0)
-      for (const int i : {owner(pairs[n].a, pairs[n].tag_a), owner(pairs[n].b, pairs[n].tag_b)})
+      for (const int i : {owner(pairs[n].a, tag(pairs[n].a)), owner(pairs[n].b, tag(pairs[n].b))})
         if (i >= 0)
           of_atom[i] += count;
   }
@@ -312,10 +329,10 @@ void NearPairs::hand_over(bool keep) {
   for (std::size_t n = 0; n < pairs.size(); ++n) {
     const NearPair& p = pairs[n];
     for (int m = contacts.first[n]; m < contacts.first[n + 1]; ++m) {
-      Touch touch = {p.tag_b, contacts.id[m], {}};
+      Touch touch = {tag(p.b), contacts.id[m], {}};
       for (int k = 0; k < 3; ++k)
         touch.displacement[k] = contacts.displacement[k][m];
-      const int a = owner(p.a, p.tag_a), b = owner(p.b, p.tag_b);
+      const int a = owner(p.a, tag(p.a)), b = owner(p.b, tag(p.b));
       const auto hand_to = [&](int i) {
         history_.touches(i).push_back(touch);
         const auto values = contacts.more.begin() + contacts.width * m;
@@ -323,7 +340,7 @@ void NearPairs::hand_over(bool keep) {
       };
       if (a >= 0)
         hand_to(a);
-      touch.partner = p.tag_a;
+      touch.partner = tag(p.a);
       if (b >= 0)
         hand_to(b);
     }
@@ -334,7 +351,8 @@ double NearPairs::memory_usage() const {
   const double contact_bytes = sizeof(int) + (3 + contacts.width) * sizeof(double);
   return static_cast<double>(pairs.capacity()) * (sizeof(NearPair) + sizeof(PairWake) + 2 * sizeof(int)) +
          static_cast<double>(contacts.id.capacity() + next.id.capacity()) * contact_bytes +
-         static_cast<double>(candidates.bytes()) + static_cast<double>(searches.capacity()) * sizeof(PairSearch);
+         static_cast<double>(candidates.bytes()) +
+         static_cast<double>(searches.capacity()) * sizeof(contact::RelativePose);
 }
 
 } // namespace eccentra::styles

@@ -9,6 +9,7 @@
 
 #include "pointers.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <limits>
@@ -21,31 +22,17 @@ class NeighList;
 namespace eccentra::styles {
 
 /// Two bodies near each other. A has the lower tag, so that every rank that meets the pair computes the same.
-struct alignas(64) NearPair {
+/// Short, as a body has some ten of them: what belongs to a body is in its state.
+struct NearPair {
   static constexpr int not_yet = -1, needless = -2; ///< for `search`; needless: two single spheres
 
-  int a, b; ///< local or ghost indices
-  int tag_a, tag_b;
-  const contact::SurfaceSpheres *surface_a, *surface_b;
-  double extra_a, extra_b; ///< added to the sub-spheres' radii (plain spheres) [m]
-  int candidate_first;     ///< into the candidate store
-  int candidate_count;
-  float skin; ///< relative motion since the last search that the candidates allow [m]; 0: they hold no more
-  int search; ///< into NearPairs::searches
+  int a, b;                                     ///< local or ghost indices
+  int candidate_first = 0, candidate_count = 0; ///< in the candidate store
+  int candidate_room = 0;                       ///< the pair's there
+  float skin = 0; ///< relative motion since the last search that the candidates allow [m]; 0: they hold no more
+  int search;     ///< into NearPairs::searches
 
   bool direct() const { return search == needless; }
-  double bound_a() const { return surface_a->bounding_radius + extra_a; } ///< bounding radius of A [m]
-  double bound_b() const { return surface_b->bounding_radius + extra_b; }
-  double range() const { return bound_a() + bound_b(); }
-  /// Largest sum of the radii of two sub-spheres [m].
-  double largest_reach() const { return surface_a->largest_radius + extra_a + surface_b->largest_radius + extra_b; }
-};
-static_assert(sizeof(NearPair) == 64, "a cache line");
-
-/// Of pairs whose bounding spheres have met, which are few of those in the list.
-struct PairSearch {
-  contact::RelativePose pose; ///< at the last search
-  int candidate_room = 0;     ///< in the candidate store
 };
 
 /// What tells whether a pair needs a look at all; apart from the rest and short, as most pairs do not and all are
@@ -133,11 +120,21 @@ class NearPairs : protected LAMMPS_NS::Pointers {
   std::vector<char> idle;      ///< one per pair
   ContactList contacts, next;  ///< of the last step; the one under construction
   contact::CandidateStore candidates;
-  std::vector<PairSearch> searches;
+  /// Poses at the last search of pairs whose bounding spheres have met.
+  std::vector<contact::RelativePose> searches;
 
   /// Once a step of `dt` [s]: states of all bodies, ghosts as well, and changes of their velocities; no forces.
   void update_bodies(double dt, int held_groups);
   const contact::BodyState& body(int i) const { return bodies_now_[i]; }
+  /// Of body i when the list was made.
+  int tag(int i) const { return bodies_now_[i].tag; }
+  const contact::SurfaceSpheres& surface_a(const NearPair& p) const { return *bodies_now_[p.a].surface; }
+  const contact::SurfaceSpheres& surface_b(const NearPair& p) const { return *bodies_now_[p.b].surface; }
+  double bound_a(const NearPair& p) const { return bound(bodies_now_[p.a]); } ///< bounding radius of A [m]
+  double bound_b(const NearPair& p) const { return bound(bodies_now_[p.b]); }
+  double range(const NearPair& p) const { return bound_a(p) + bound_b(p); }
+  /// Largest sum of the radii of two sub-spheres [m].
+  double largest_reach(const NearPair& p) const { return largest(bodies_now_[p.a]) + largest(bodies_now_[p.b]); }
   /// The same number for bodies of the same mass, material and shape.
   int kind(int i) const { return kind_[i]; }
   /// From A's centre to B's [m]; fourth lane: anything.
@@ -164,7 +161,8 @@ class NearPairs : protected LAMMPS_NS::Pointers {
     idle[pair] = 0;
     wakes[pair].room = -1;
   }
-  contact::BodyForce& force(int i) { return forces_[i]; }
+  /// Of all ghosts together: nobody reads it.
+  contact::BodyForce& force(int i) { return forces_[std::min(i, local_at_build_)]; }
   /// Adds the forces to the atoms of this rank.
   void add_forces() const;
   /// Asks for the data of a pair ahead of its turn.
@@ -207,6 +205,9 @@ class NearPairs : protected LAMMPS_NS::Pointers {
   double memory_usage() const;
 
  private:
+  static double bound(const contact::BodyState& body) { return body.surface->bounding_radius + body.extra_radius; }
+  static double largest(const contact::BodyState& body) { return body.surface->largest_radius + body.extra_radius; }
+  void begin_bodies();
   void take_history();
 
   FixClusterBodies& bodies_;

@@ -109,7 +109,7 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   void search_candidates(NearPair& p, const contact::RelativePose& pose, const double* offset);
 
   /// Gap across which sub-spheres of a pair interact at most [m].
-  double gap_reached(const NearPair& p) const { return (reach_ - 1) * p.largest_reach(); }
+  double gap_reached(const NearPair& p) const { return (reach_ - 1) * near_->largest_reach(p); }
 
   // Pairs with a rounded body (pair_gran_cluster_hulls.cpp).
   void wait_hulls(int number, const NearPair& p, const contact::Double4& to_b);

@@ -30,7 +30,7 @@ constexpr int interpenetrating = 8;
 void PairGranCluster::evaluate_large() {
   const int count = waiting_.candidates();
   const NearPair& p = near_->pairs[waiting_.pair(0).number];
-  const int finer = std::max(p.surface_a->count, p.surface_b->count);
+  const int finer = std::max(near_->surface_a(p).count, near_->surface_b(p).count);
   if (reach_ == 1 && count > interpenetrating * finer)
     error->one(FLERR, ("two clusters touch at up to " + std::to_string(count) + " sub-spheres at once, more than " +
                        std::to_string(interpenetrating) + " for each of the " + std::to_string(finer) +
@@ -259,7 +259,7 @@ void PairGranCluster::fill_materials(Block& c, const WaitingPair& waiting, int f
 /// Inertia of a pair, likewise; where it is the same about all axes, orientation does not change it.
 void PairGranCluster::fill_inertia(const WaitingPair& waiting, int number) {
   const NearPair& p = near_->pairs[waiting.number];
-  one_inertia_ = one_kind_ && number == 0 && p.surface_a->equal_moments && p.surface_b->equal_moments;
+  one_inertia_ = one_kind_ && number == 0 && near_->surface_a(p).equal_moments && near_->surface_b(p).equal_moments;
   pairs_.alike = one_inertia_;
   const int last = one_inertia_ ? contact::ContactBlock::capacity : number + 1;
   const double *inverse_a = waiting.a->inverse_inertia, *inverse_b = waiting.b->inverse_inertia;

@@ -40,8 +40,8 @@ constexpr double round_off = 1e-6;
 /// So many pairs ahead data are asked for.
 constexpr int prefetched_ahead = 8;
 
-bool has_hull(const NearPair& p) {
-  return p.surface_a->hull || p.surface_b->hull;
+bool has_hull(const NearPairs& near, const NearPair& p) {
+  return near.surface_a(p).hull || near.surface_b(p).hull;
 }
 
 } // namespace
@@ -64,6 +64,7 @@ void PairGranCluster::compute_force(int eflag, int vflag, int addflag) {
   NearPairs& near = *near_;
   const int pair_count = static_cast<int>(near.pairs.size());
   near.next.clear(pair_count);
+  near.next.make_room(near.contacts.size());
   near_count_ = 0;
   outgrown_.clear();
   one_kind_ = false; // kinds are numbered anew with each list, and properties may change
@@ -111,10 +112,10 @@ inline void PairGranCluster::wait(int number, const NearPair& p, const contact::
   pair.to_b = to_b;
   pair.a = &near_->body(p.a);
   pair.b = &near_->body(p.b);
-  pair.spheres_a = p.surface_a->sphere.data();
-  pair.spheres_b = p.surface_b->sphere.data();
-  pair.extra_a = p.extra_a;
-  pair.extra_b = p.extra_b;
+  pair.spheres_a = pair.a->surface->sphere.data();
+  pair.spheres_b = pair.b->surface->sphere.data();
+  pair.extra_a = pair.a->extra_radius;
+  pair.extra_b = pair.b->extra_radius;
   pair.number = number;
   pair.may_idle = may_idle;
   if (count > WaitingPairs::capacity)
@@ -138,7 +139,7 @@ void PairGranCluster::look_at(int number, bool fresh) {
   if (p.candidate_count == 0)
     return;
   ++near_count_;
-  if (hulls_ && has_hull(p)) {
+  if (hulls_ && has_hull(*near_, p)) {
     wait_hulls(number, p, to_b);
     return;
   }
@@ -152,7 +153,7 @@ void PairGranCluster::look_at(int number, bool fresh) {
 void PairGranCluster::renew_candidates(int number, NearPair& p, const double* offset) {
   if (p.candidate_count == 0) {
     const double between = std::sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]);
-    const double room = (1 - round_off) * between - p.range() - gap_reached(p);
+    const double room = (1 - round_off) * between - near_->range(p) - gap_reached(p);
     if (room > 0) {
       p.skin = 0;
       near_->note_apart(number, room);
@@ -162,7 +163,7 @@ void PairGranCluster::renew_candidates(int number, NearPair& p, const double* of
   const contact::RelativePose pose(near_->body(p.a), near_->body(p.b), offset);
   float left = 0;
   if (p.skin > 0)
-    left = p.skin - pose.moved_since(near_->searches[p.search].pose, static_cast<float>(p.bound_b()));
+    left = p.skin - pose.moved_since(near_->searches[p.search], static_cast<float>(near_->bound_b(p)));
   if (left <= skin_used_up * p.skin) {
     search_candidates(p, pose, offset);
     left = p.skin;
@@ -172,14 +173,16 @@ void PairGranCluster::renew_candidates(int number, NearPair& p, const double* of
 
 /// Puts those candidates of a pair that seem to touch in single precision into hits_; returns how many.
 int PairGranCluster::preselect(int number, const NearPair& p, const double* offset) {
-  const contact::RelativePose pose(near_->body(p.a), near_->body(p.b), offset);
+  const contact::BodyState &a = near_->body(p.a), &b = near_->body(p.b);
+  const contact::RelativePose pose(a, b, offset);
   const int* candidates = near_->candidates.at(p.candidate_first);
   const int count = p.candidate_count;
-  const contact::PosedShapes shapes = {*p.surface_a, *p.surface_b, static_cast<float>(p.extra_a + p.extra_b), pose};
+  const contact::PosedShapes shapes = {*a.surface, *b.surface, static_cast<float>(a.extra_radius + b.extra_radius),
+                                       pose};
   if (static_cast<int>(hits_.size()) < count + contact::CandidateStore::chunk)
     hits_.resize(2 * count + contact::CandidateStore::chunk);
   const int hits = contact::overlapping_candidates(
-      shapes, candidates, count, static_cast<float>(round_off * p.range() + gap_reached(p)), hits_.data());
+      shapes, candidates, count, static_cast<float>(round_off * near_->range(p) + gap_reached(p)), hits_.data());
   if (hits == 0)
     may_idle(number, offset, contact::min_gap(shapes, candidates, count) - gap_reached(p));
   return hits;
@@ -196,13 +199,13 @@ void PairGranCluster::not_touching(const WaitingPair& waiting, int number_waitin
   for (int n = waiting_.first_candidate(number_waiting); n < waiting.last_candidate; ++n)
     least = std::min(least, excess[n]);
   if (p.direct()) {
-    const double sum = reach_ * p.range();
+    const double sum = reach_ * near_->range(p);
     const double gap = std::sqrt(least + sum * sum) - sum;
     near_->note_look(waiting.number, offset, (1 - round_off) * gap, true);
     return;
   }
   // (d - s) (d + s) = least; no candidate is farther away than the pair's skin allows.
-  const double widest = (1 + reach_) * p.largest_reach() + gap_reached(p) + 2 * p.skin;
+  const double widest = (1 + reach_) * near_->largest_reach(p) + gap_reached(p) + 2 * p.skin;
   may_idle(waiting.number, offset, least / widest);
 }
 
@@ -210,7 +213,7 @@ void PairGranCluster::not_touching(const WaitingPair& waiting, int number_waitin
 void PairGranCluster::may_idle(int number, const double* offset, double gap) {
   const NearPair& p = near_->pairs[number];
   const PairWake& wake = near_->wakes[number];
-  gap -= round_off * p.range();
+  gap -= round_off * near_->range(p);
   if (gap > worth_idling * path_safety * update->dt * near_->relative_speed(p, offset))
     near_->note_look(number, offset, std::min(gap, static_cast<double>(wake.room - near_->moved_since_look(wake))),
                      true);
@@ -219,35 +222,36 @@ void PairGranCluster::may_idle(int number, const double* offset, double gap) {
 /// Finds the pairs of sub-spheres that can touch soon, with a skin that suits how fast the bodies move past each other.
 void PairGranCluster::search_candidates(NearPair& p, const contact::RelativePose& pose, const double* offset) {
   contact::CandidateStore& store = near_->candidates;
-  const float extra_a = static_cast<float>(p.extra_a), extra_b = static_cast<float>(p.extra_b);
-  const double smallest = std::min(p.surface_a->smallest_radius + p.extra_a, p.surface_b->smallest_radius + p.extra_b);
+  const contact::BodyState &a = near_->body(p.a), &b = near_->body(p.b);
+  const float extra_a = static_cast<float>(a.extra_radius), extra_b = static_cast<float>(b.extra_radius);
+  const double smallest =
+      std::min(a.surface->smallest_radius + a.extra_radius, b.surface->smallest_radius + b.extra_radius);
   const double motion = update->dt * near_->relative_speed(p, offset);
   const float skin =
       static_cast<float>(std::clamp(skin_steps * motion, skin_narrowest * smallest, skin_widest * smallest));
-  const float margin = static_cast<float>(2 * round_off * p.range() + gap_reached(p));
-  const bool hull = hulls_ && has_hull(p);
+  const float margin = static_cast<float>(2 * round_off * near_->range(p) + gap_reached(p));
+  const bool hull = hulls_ && has_hull(*near_, p);
   contact::SearchResult found;
   if (hull) {
     found.slack = search_features(p, offset, skin + margin);
     found.count = static_cast<int>(hulls_->search.found().size());
   } else {
-    found = search_.search(*p.surface_a, extra_a, *p.surface_b, extra_b, pose, skin + margin);
+    found = search_.search(*a.surface, extra_a, *b.surface, extra_b, pose, skin + margin);
   }
   if (p.search == NearPair::not_yet) {
-    std::vector<PairSearch>& searches = near_->searches;
+    std::vector<contact::RelativePose>& searches = near_->searches;
     p.search = static_cast<int>(searches.size());
     if (searches.size() == searches.capacity())
       searches.reserve(searches.size() + searches.size() / 4 + 64);
     searches.emplace_back();
   }
-  PairSearch& search = near_->searches[p.search];
   p.skin = found.slack - margin;
-  search.pose = pose;
+  near_->searches[p.search] = pose;
   p.candidate_count = found.count;
-  if (found.count > search.candidate_room) {
+  if (found.count > p.candidate_room) {
     // A little more, as what it grows out of is lost until the next list.
-    search.candidate_room = found.count + found.count / 4 + 1;
-    p.candidate_first = store.reserve(search.candidate_room);
+    p.candidate_room = found.count + found.count / 4 + 1;
+    p.candidate_first = store.reserve(p.candidate_room);
   }
   const std::vector<int>& ids = hull ? hulls_->search.found() : search_.found();
   std::copy(ids.begin(), ids.end(), store.at(p.candidate_first));

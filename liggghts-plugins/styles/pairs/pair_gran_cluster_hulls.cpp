@@ -62,8 +62,8 @@ void PairGranCluster::wait_hulls(int number, const NearPair& p, const contact::D
   pair.to_b = to_b;
   pair.a = &near_->body(p.a);
   pair.b = &near_->body(p.b);
-  pair.extra_a = p.extra_a;
-  pair.extra_b = p.extra_b;
+  pair.extra_a = pair.a->extra_radius;
+  pair.extra_b = pair.b->extra_radius;
   pair.number = number;
   pair.may_idle = true;
   if (hulls_->manifolds.pairs() >= HullContacts::enough)
@@ -98,9 +98,9 @@ void PairGranCluster::evaluate_hulls() {
       continue;
     }
     const NearPair& near = near_->pairs[pair.number];
-    if (hulls.manifolds.sunk(n) > kMaxSunk * std::min(near.bound_a(), near.bound_b()))
-      error->one(FLERR, ("pair_style gran/cluster: the bodies " + std::to_string(near.tag_a) + " and " +
-                         std::to_string(near.tag_b) +
+    if (hulls.manifolds.sunk(n) > kMaxSunk * std::min(near_->bound_a(near), near_->bound_b(near)))
+      error->one(FLERR, ("pair_style gran/cluster: the bodies " + std::to_string(near_->tag(near.a)) + " and " +
+                         std::to_string(near_->tag(near.b)) +
                          " have run into each other by most of their size: use a smaller time step (see fix "
                          "timestep/limit) or a larger Young's modulus")
                             .c_str());
@@ -144,8 +144,8 @@ void PairGranCluster::add_hull_pair(Block& c, WaitingPair& waiting, const contac
   for (int n = 0; n < count; ++n) {
     const contact::Contact& contact = contacts[n];
     const double overlap = contact.overlap();
-    const double radius_a = hertz_radius(*near.surface_a, near.extra_a, contact.radius_a),
-                 radius_b = hertz_radius(*near.surface_b, near.extra_b, contact.reach - contact.radius_a);
+    const double radius_a = hertz_radius(*waiting.a->surface, waiting.extra_a, contact.radius_a),
+                 radius_b = hertz_radius(*waiting.b->surface, waiting.extra_b, contact.reach - contact.radius_a);
     const double stiffness = contact.weight * std::sqrt(radius_a * radius_b / (radius_a + radius_b) * overlap);
     if (contact.elastic) {
       const Eigen::Vector3d force = 4. / 3 * youngs * stiffness * overlap * contact.normal;
