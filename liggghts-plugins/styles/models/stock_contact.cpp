@@ -28,13 +28,28 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <type_traits>
 
 namespace eccentra::styles {
 
+namespace stock = LIGGGHTS::ContactModels;
+
+/// A contact whose normal force is there.
+struct StockContact::Begun {
+  stock::SurfacesIntersectData data{};
+  stock::ForceData on_a, on_b;
+  stock::ForceData friction_a, friction_b; ///< what the tangential model adds to them
+  double elastic = 0;                      ///< normal force without its damper [N]
+  double whole = 0;                        ///< normal force that waits while a model sees another one [N]
+  double adhesion = 0;                     ///< what cohesion adds to it [N]
+  bool touches = false;
+  std::vector<double> still; ///< history that does not move on
+};
+
 namespace {
 
-namespace stock = LIGGGHTS::ContactModels;
 using LAMMPS_NS::LAMMPS;
+using Begun = StockContact::Begun;
 
 /// Counts the values of history that the models ask for.
 class History : public LIGGGHTS::IContactHistorySetup {
@@ -55,11 +70,33 @@ class Surroundings : public stock::ContactModelBase {
   void tally_pw(double, int, int, int) override {}
 };
 
-template <class Base>
-using Creators = std::map<std::string, std::function<std::unique_ptr<Base>(LAMMPS*, History*, Surroundings*)>>;
+/// A model of stock's, and its own code over contacts at once: a call through its base for each costs more than what
+/// many models compute.
+template <class Base> struct Made {
+  std::unique_ptr<Base> model;
+  void (*over)(Base& model, Begun* contacts, int n) = nullptr;
+  Base& operator*() const { return *model; }
+  Base* operator->() const { return model.get(); }
+  void intersect(Begun* contacts, int n) const { over(*model, contacts, n); }
+};
 
-template <class Base, class Model> std::unique_ptr<Base> make(LAMMPS* lmp, History* history, Surroundings* around) {
-  return std::make_unique<Model>(lmp, history, around);
+template <class Base, class Model> void over_contacts(Base& base, Begun* contacts, int n) {
+  auto& model = static_cast<Model&>(base);
+  for (Begun* at = contacts; at != contacts + n; ++at) {
+    if (!at->touches)
+      continue;
+    if constexpr (std::is_same_v<Base, stock::TangentialModelBase>)
+      model.Model::surfacesIntersect(at->data, at->friction_a, at->friction_b);
+    else
+      model.Model::surfacesIntersect(at->data, at->on_a, at->on_b);
+  }
+}
+
+template <class Base>
+using Creators = std::map<std::string, std::function<Made<Base>(LAMMPS*, History*, Surroundings*)>>;
+
+template <class Base, class Model> Made<Base> make(LAMMPS* lmp, History* history, Surroundings* around) {
+  return {std::make_unique<Model>(lmp, history, around), &over_contacts<Base, Model>};
 }
 
 // LIGGGHTS lists its models by macros in their headers.
@@ -147,25 +184,17 @@ auto created(const Map& models, const char* kind, const std::string& name, LAMMP
 
 } // namespace
 
-/// A contact whose normal force is there.
-struct StockContact::Begun {
-  stock::SurfacesIntersectData data{};
-  stock::ForceData on_a, on_b;
-  double elastic = 0;        ///< normal force without its damper [N]
-  double adhesion = 0;       ///< what cohesion adds to it [N]
-  std::vector<double> still; ///< history that does not move on
-};
-
 struct StockContact::Models {
   Models(LAMMPS* lmp, bool wall) : around(lmp, wall) {}
 
   History history;
   Surroundings around;
-  std::unique_ptr<stock::SurfaceModelBase> surface;
-  std::unique_ptr<stock::NormalModelBase> normal;
-  std::unique_ptr<stock::CohesionModelBase> cohesion;
-  std::unique_ptr<stock::TangentialModelBase> tangential;
-  std::unique_ptr<stock::RollingModelBase> rolling;
+  using Surface = stock::SurfaceModel<stock::SURFACE_DEFAULT>;
+  std::unique_ptr<Surface> surface;
+  Made<stock::NormalModelBase> normal;
+  Made<stock::CohesionModelBase> cohesion;
+  Made<stock::TangentialModelBase> tangential;
+  Made<stock::RollingModelBase> rolling;
   std::vector<Begun> begun = std::vector<Begun>(1);
   Begun aside; ///< for stiffness alone
   std::vector<double> scratch;
@@ -205,7 +234,7 @@ void StockContact::choose(const StockModelNames& names, const std::vector<std::s
   models_ = std::make_unique<Models>(lmp_, wall_);
   names_ = names;
   Models& m = *models_;
-  m.surface = std::make_unique<stock::SurfaceModel<stock::SURFACE_DEFAULT>>(lmp_, &m.history, &m.around);
+  m.surface = std::make_unique<Models::Surface>(lmp_, &m.history, &m.around);
   m.normal = created(normal_models(), "model", names.normal, lmp_, &m.history, &m.around);
   // What luding's models read beside a normal model without adhesion: 0.
   if (m.around.get_history_offset("kc_offset") < 0 && (names.tangential == "tan_luding" || names.rolling == "luding")) {
@@ -378,31 +407,38 @@ void StockContact::synchronise(Begun& at, const StockSubContact& c) {
 }
 
 /// Stock's tangential model under the bound that was chosen.
-void StockContact::tangential(Begun& at, const StockSubContact& c) {
+void StockContact::tangential(const StockSubContact* contacts, int n) {
   Models& m = *models_;
-  stock::SurfacesIntersectData& data = at.data;
-  if (bound_ != contact::FrictionBound::elastic || !friction_) {
-    m.tangential->surfacesIntersect(data, at.on_a, at.on_b);
-    return;
+  const bool elastic = bound_ == contact::FrictionBound::elastic && friction_;
+  for (int k = 0; k < n; ++k) {
+    Begun& at = m.begun[k];
+    at.friction_a.reset();
+    at.friction_b.reset();
+    at.whole = at.data.Fn;
+    if (elastic)
+      at.data.Fn = at.elastic + at.adhesion; // without the damper
   }
-  const double whole = data.Fn;
-  const stock::ForceData before_a = at.on_a, before_b = at.on_b;
-  data.Fn = at.elastic + at.adhesion; // without the damper
-  m.tangential->surfacesIntersect(data, at.on_a, at.on_b);
-  const double cap = friction_[c.type_a][c.type_b] * std::fabs(data.Fn);
-  double square = 0;
-  for (int k = 0; k < 3; ++k)
-    square += (at.on_a.delta_F[k] - before_a.delta_F[k]) * (at.on_a.delta_F[k] - before_a.delta_F[k]);
-  if (square > cap * cap) {
-    const double cut = cap / std::sqrt(square);
-    for (int k = 0; k < 3; ++k) {
-      at.on_a.delta_F[k] = before_a.delta_F[k] + cut * (at.on_a.delta_F[k] - before_a.delta_F[k]);
-      at.on_b.delta_F[k] = before_b.delta_F[k] + cut * (at.on_b.delta_F[k] - before_b.delta_F[k]);
-      at.on_a.delta_torque[k] = before_a.delta_torque[k] + cut * (at.on_a.delta_torque[k] - before_a.delta_torque[k]);
-      at.on_b.delta_torque[k] = before_b.delta_torque[k] + cut * (at.on_b.delta_torque[k] - before_b.delta_torque[k]);
+  m.tangential.intersect(m.begun.data(), n);
+  for (int k = 0; k < n; ++k) {
+    Begun& at = m.begun[k];
+    if (!at.touches)
+      continue;
+    double cut = 1;
+    if (elastic) {
+      const double* f = at.friction_a.delta_F;
+      const double cap = friction_[contacts[k].type_a][contacts[k].type_b] * std::fabs(at.data.Fn);
+      const double square = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
+      if (square > cap * cap)
+        cut = cap / std::sqrt(square);
     }
+    for (int d = 0; d < 3; ++d) {
+      at.on_a.delta_F[d] += cut * at.friction_a.delta_F[d];
+      at.on_b.delta_F[d] += cut * at.friction_b.delta_F[d];
+      at.on_a.delta_torque[d] += cut * at.friction_a.delta_torque[d];
+      at.on_b.delta_torque[d] += cut * at.friction_b.delta_torque[d];
+    }
+    at.data.Fn = at.whole;
   }
-  data.Fn = whole;
 }
 
 namespace {
@@ -456,91 +492,122 @@ void StockContact::close(Begun& at, const StockSubContact& c) {
     count(c.b, before_b, c.radius_b, c.volume_b);
 }
 
-void StockContact::begin(StockSubContact& c, int place) {
+void StockContact::begin(StockSubContact* contacts, int n) {
   Models& m = *models_;
-  if (static_cast<std::size_t>(place) >= m.begun.size())
-    m.begun.resize(place + contact::ContactBlock::capacity);
-  Begun& at = m.begun[place];
-  stock::SurfacesIntersectData& data = at.data;
-  fill(data, c, wall_);
-  data.contact_history = c.history;
-  if (!c.advance) { // some models move their history on all the same
-    at.still.assign(c.history, c.history + m.history.size);
-    at.still.push_back(0);
-    data.contact_history = at.still.data();
+  if (static_cast<std::size_t>(n) > m.begun.size())
+    m.begun.resize(n + contact::ContactBlock::capacity);
+  for (int k = 0; k < n; ++k) {
+    StockSubContact& c = contacts[k];
+    Begun& at = m.begun[k];
+    stock::SurfacesIntersectData& data = at.data;
+    fill(data, c, wall_);
+    data.contact_history = c.history;
+    if (!c.advance) { // some models move their history on all the same
+      at.still.assign(c.history, c.history + m.history.size);
+      at.still.push_back(0);
+      data.contact_history = at.still.data();
+    }
+    data.contact_flags = wall_ ? nullptr : &m.flags;
+    at.on_a.reset();
+    at.on_b.reset();
+    data.kn = data.kt = data.gamman = data.gammat = 0;
+    data.Fn = data.Ft = 0;
+    c.touches = at.touches = data.rsq < data.radsum * data.radsum;
+    if (c.touches) {
+      m.surface->Models::Surface::surfacesIntersect(data, at.on_a, at.on_b);
+      if (synchronised_ && c.advance)
+        synchronise(at, c);
+    }
   }
-  data.contact_flags = wall_ ? nullptr : &m.flags;
-  at.on_a.reset();
-  at.on_b.reset();
-  data.kn = data.kt = data.gamman = data.gammat = 0;
-  data.Fn = data.Ft = 0;
-  c.touches = data.rsq < data.radsum * data.radsum;
-  if (c.touches) {
-    m.surface->surfacesIntersect(data, at.on_a, at.on_b);
-    if (synchronised_ && c.advance)
-      synchronise(at, c);
-    m.normal->surfacesIntersect(data, at.on_a, at.on_b);
+  m.normal.intersect(m.begun.data(), n);
+  for (int k = 0; k < n; ++k) {
+    StockSubContact& c = contacts[k];
+    const stock::SurfacesIntersectData& data = m.begun[k].data;
+    std::copy_n(data.en, 3, c.normal);
+    c.overlap = c.radius_a + c.radius_b - data.r;
+    c.kn = data.kn;
+    c.kt = data.kt;
+    c.gamma_n = data.gamman;
+    c.gamma_t = data.gammat;
   }
-  std::copy_n(data.en, 3, c.normal);
-  c.overlap = c.radius_a + c.radius_b - data.r;
-  c.kn = data.kn;
-  c.kt = data.kt;
-  c.gamma_n = data.gamman;
-  c.gamma_t = data.gammat;
 }
 
 /// Stock's rolling model with the radii that were chosen.
-void StockContact::rolling(Begun& at, const StockSubContact& c) {
-  stock::SurfacesIntersectData& data = at.data;
-  if (c.share != 1) { // dampers of rolling go with the root of the inertia
-    data.mi *= c.share * c.share;
-    data.mj *= c.share * c.share;
+void StockContact::rolling(const StockSubContact* contacts, int n) {
+  if (names_.rolling == "off")
+    return;
+  Models& m = *models_;
+  for (int k = 0; k < n; ++k) {
+    const StockSubContact& c = contacts[k];
+    stock::SurfacesIntersectData& data = m.begun[k].data;
+    if (c.share != 1) { // dampers of rolling go with the root of the inertia
+      data.mi *= c.share * c.share;
+      data.mj *= c.share * c.share;
+    }
+    if (rolling_radius_ == RollingRadius::body && c.touches) {
+      const auto distance = [](const double* arm, double reach, const double* normal) {
+        const double x = arm[0] + reach * normal[0], y = arm[1] + reach * normal[1], z = arm[2] + reach * normal[2];
+        return std::sqrt(x * x + y * y + z * z);
+      };
+      data.radi = distance(c.arm_a, -data.cri, data.en);
+      if (!wall_)
+        data.radj = distance(c.arm_b, data.crj, data.en);
+    }
   }
-  if (rolling_radius_ == RollingRadius::body) {
-    const auto distance = [](const double* arm, double reach, const double* n) {
-      const double x = arm[0] + reach * n[0], y = arm[1] + reach * n[1], z = arm[2] + reach * n[2];
-      return std::sqrt(x * x + y * y + z * z);
-    };
-    data.radi = distance(c.arm_a, -data.cri, data.en);
-    if (!wall_)
-      data.radj = distance(c.arm_b, data.crj, data.en);
-  }
-  models_->rolling->surfacesIntersect(data, at.on_a, at.on_b);
+  m.rolling.intersect(m.begun.data(), n);
 }
 
-void StockContact::finish(StockSubContact& c, int place) {
+/// Stock's cohesion, and what it adds to the normal force.
+void StockContact::cohesion(int n) {
+  if (names_.cohesion == "off")
+    return;
   Models& m = *models_;
-  Begun& at = m.begun[place];
-  stock::SurfacesIntersectData& data = at.data;
-  if (c.touches) {
+  for (int k = 0; k < n; ++k)
+    m.begun[k].whole = m.begun[k].data.Fn;
+  m.cohesion.intersect(m.begun.data(), n);
+  for (int k = 0; k < n; ++k)
+    m.begun[k].adhesion = m.begun[k].data.Fn - m.begun[k].whole;
+}
+
+void StockContact::finish(StockSubContact* contacts, int n) {
+  Models& m = *models_;
+  for (int k = 0; k < n; ++k) {
+    const StockSubContact& c = contacts[k];
+    Begun& at = m.begun[k];
+    if (!at.touches)
+      continue;
     if (c.share != 1 || bound_ == contact::FrictionBound::elastic)
       at.elastic = elastic_force(at, c);
     if (c.share != 1)
       keep_share(at, c.share);
-    const double normal = data.Fn;
-    m.cohesion->surfacesIntersect(data, at.on_a, at.on_b);
-    at.adhesion = data.Fn - normal;
-    tangential(at, c);
-    rolling(at, c);
-    m.cohesion->endSurfacesIntersect(data, at.on_a, at.on_b);
+  }
+  cohesion(n);
+  tangential(contacts, n);
+  rolling(contacts, n);
+  for (int k = 0; k < n; ++k) {
+    StockSubContact& c = contacts[k];
+    Begun& at = m.begun[k];
     c.acts = true;
-  } else {
-    data.has_force_update = false;
-    close(at, c);
-    c.acts = data.has_force_update;
+    if (at.touches) {
+      m.cohesion->endSurfacesIntersect(at.data, at.on_a, at.on_b);
+    } else {
+      at.data.has_force_update = false;
+      close(at, c);
+      c.acts = at.data.has_force_update;
+    }
+    c.gamma_n = at.data.gamman;
+    c.gamma_t = at.data.gammat;
+    for (int d = 0; d < 3; ++d) {
+      c.force[d] = c.acts ? at.on_a.delta_F[d] : 0;
+      c.torque_a[d] = c.acts ? at.on_a.delta_torque[d] : 0;
+      c.torque_b[d] = c.acts ? at.on_b.delta_torque[d] : 0;
+    }
+    if (!std::isfinite(c.force[0] + c.force[1] + c.force[2]))
+      lmp_->error->one(FLERR, ("model " + names_.normal + ", cohesion " + names_.cohesion +
+                               ": the force of a contact is not a number; expected a smaller time step or less "
+                               "adhesion (surfaceEnergy, pullOffForce)")
+                                  .c_str());
   }
-  c.gamma_n = data.gamman;
-  c.gamma_t = data.gammat;
-  for (int k = 0; k < 3; ++k) {
-    c.force[k] = c.acts ? at.on_a.delta_F[k] : 0;
-    c.torque_a[k] = c.acts ? at.on_a.delta_torque[k] : 0;
-    c.torque_b[k] = c.acts ? at.on_b.delta_torque[k] : 0;
-  }
-  if (!std::isfinite(c.force[0] + c.force[1] + c.force[2]))
-    lmp_->error->one(FLERR, ("model " + names_.normal + ", cohesion " + names_.cohesion +
-                             ": the force of a contact is not a number; expected a smaller time step or less adhesion "
-                             "(surfaceEnergy, pullOffForce)")
-                                .c_str());
 }
 
 } // namespace eccentra::styles

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One sub-contact at a time through LIGGGHTS's own contact models: its classes, given the sub-spheres of bodies.
+// Sub-contacts through LIGGGHTS's own contact models: its classes, given the sub-spheres of bodies.
 #pragma once
 
 #include "base/option_reader.h"
@@ -88,24 +88,22 @@ class StockContact {
 
   /// Stiffness and damping alone (kn, kt, gamma_n, gamma_t); history stays.
   void stiffness(StockSubContact& contact);
-  /// The forces. Contacts that share dampers need kn of all of them first: `begin` gives it with the normal force,
-  /// whose history moves on, and `finish` takes the share. `place` tells contacts apart between the two, during which a
-  /// contact stays where it is in memory.
-  void begin(StockSubContact& contact, int place = 0);
-  void finish(StockSubContact& contact, int place = 0);
-  void evaluate(StockSubContact& contact) {
-    begin(contact);
-    finish(contact);
-  }
+  /// The forces of n contacts. Those that share dampers need kn of all of them first: `begin` gives it with the normal
+  /// force, whose history moves on, and `finish` takes the shares. Between the two the contacts stay where they are.
+  void begin(StockSubContact* contacts, int n);
+  void finish(StockSubContact* contacts, int n);
+
+  /// A contact between begin and finish.
+  struct Begun;
 
  private:
   struct Models;
-  struct Begun;
   void synchronise(Begun& begun, const StockSubContact& contact);
   double elastic_force(const Begun& begun, const StockSubContact& contact);
   void keep_share(Begun& begun, double share);
-  void rolling(Begun& begun, const StockSubContact& contact);
-  void tangential(Begun& begun, const StockSubContact& contact);
+  void cohesion(int n);
+  void rolling(const StockSubContact* contacts, int n);
+  void tangential(const StockSubContact* contacts, int n);
   void close(Begun& begun, const StockSubContact& contact);
   LAMMPS_NS::LAMMPS* lmp_;
   bool wall_;

@@ -73,16 +73,17 @@ template <class Block> void PairGranCluster::compute_stock(Block& c) {
       for (int k = 0; k < 3; ++k)
         spring[k] = c.history[k][m];
     s.share = 1;
-    stock_->begin(s, m);
-    for (int k = 0; k < 3; ++k)
-      c.normal[k][m] = s.normal[k];
   }
+  stock_->begin(stock_contacts_.data(), filled_);
+  for (int m = 0; m < filled_; ++m)
+    for (int k = 0; k < 3; ++k)
+      c.normal[k][m] = stock_contacts_[m].normal[k];
   if (arguments_.sharing == ContactSharing::shared && !single_contacts_)
     share_stock(c);
+  stock_->finish(stock_contacts_.data(), filled_);
   excess_torques_.assign(pairs_in_block_, Eigen::Vector3d::Zero());
   for (int m = 0; m < filled_; ++m) {
-    StockSubContact& s = stock_contacts_[m];
-    stock_->finish(s, m);
+    const StockSubContact& s = stock_contacts_[m];
     // About the bodies' centres.
     const Eigen::Map<const Eigen::Vector3d> force(s.force), arm_a(s.arm_a), arm_b(s.arm_b), on_a(s.torque_a),
         on_b(s.torque_b);

@@ -81,8 +81,10 @@ void FixWallGranCluster::stock_evaluate(Block& block, const contact::WallTouch* 
       for (int k = 0; k < 3; ++k)
         spring[k] = block.history[k][m];
     s.advance = advance;
-    stock_->begin(s, m);
-    block.kn[m] = s.kn;
+  }
+  stock_->begin(stock_contacts_.data(), n);
+  for (int m = 0; m < n; ++m) {
+    block.kn[m] = stock_contacts_[m].kn;
     block.overlap[m] = std::max(0., touches[m].overlap);
     block.gamma_n[m] = block.gamma_t[m] = 1;
   }
@@ -90,10 +92,11 @@ void FixWallGranCluster::stock_evaluate(Block& block, const contact::WallTouch* 
     block.kn[m] = block.overlap[m] = block.gamma_n[m] = block.gamma_t[m] = 0;
   if (arguments_.shared && groups_ > 0)
     share_groups(block, n);
+  for (int m = 0; m < n; ++m)
+    stock_contacts_[m].share = arguments_.shared && groups_ > 0 ? block.share[m] : 1;
+  stock_->finish(stock_contacts_.data(), n);
   for (int m = 0; m < n; ++m) {
-    StockSubContact& s = stock_contacts_[m];
-    s.share = arguments_.shared && groups_ > 0 ? block.share[m] : 1;
-    stock_->finish(s, m);
+    const StockSubContact& s = stock_contacts_[m];
     const Eigen::Map<const Eigen::Vector3d> force(s.force), arm(s.arm_a), torque(s.torque_a);
     const Eigen::Vector3d about_centre = torque + arm.cross(force);
     const double* spring = stock_->displacement(s.history);
