@@ -48,8 +48,8 @@ STUDIES = {
                          "--viscosity": ["strainRate"], "--quick": []}, ()),
     "link-cost": ([], {"--parts": ["ranks"], "--turns": ["2"], "--quick": []}, ()),
     "cluster-speed": (["--scenes", "settled", "--shapes", "cube:8", "--repeat", "1"], {
-        "--scenes": ["drum"], "--shapes": ["cube:27"], "--bodies": ["70"], "--repeat": ["2"], "--portable": ["OTHER"], "--ranks": ["2"],
-        "--quick": []}, ()),
+        "--scenes": ["drum"], "--shapes": ["cube:27"], "--rounded": ["disk:0.3"], "--bodies": ["70"], "--repeat": ["2"], "--portable": ["OTHER"],
+        "--ranks": ["2"], "--quick": []}, ()),
     "compare-peers": (["--codes", "ours", "stock", "--shapes", "cube 8"], {
         "--codes": ["ours", "stock", "yade"], "--shapes": ["cube 27"], "--scenes": ["drop"], "--bodies": ["20"], "--repeat": ["1"], "--quick": []},
         ("--install",)),

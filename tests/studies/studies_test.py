@@ -713,6 +713,12 @@ class Scripts(unittest.TestCase):
                     ours, stock = (float(row["restitution_of_0.9"]) for row in found)
                     self.assertAlmostEqual(ours, 0.9, delta=0.01)
                     self.assertAlmostEqual(stock, 0.9 ** 2, delta=0.01)
+                if script == "cluster-speed":
+                    with open(pathlib.Path(folder) / "rounded-speed.csv", newline="") as rows:
+                        (row,) = csv.DictReader(rows)
+                    self.assertEqual((row["scene"], row["rounded"]), ("settled", "cube 0.15"))
+                    self.assertGreater(float(row["times_as_long"]), 0.2)
+                    self.assertIn("memory per rounded cube of 0.15: ", said.stdout)
                 if script == "solver-cost":
                     self.assertEqual([row["pressure"] for row in found], ["gamg", "pcgGamg"])
                     self.assertTrue(all(float(row["iterations"]) >= 1 for row in found))
@@ -784,6 +790,9 @@ class Scripts(unittest.TestCase):
                 ("drag-against-measurement", ["--data", "/nowhere.csv"], "--data /nowhere.csv: No such file"),
                 ("solver-cost", ["--cells", "1 2"], "'1 2' is not three whole numbers such as"),
                 ("cluster-speed", ["--shapes", "cube"], "--shapes has 'cube': give FAMILY:N"),
+                ("cluster-speed", ["--rounded", "cube:2"], "--rounded has 'cube:2': give cube:R or disk:R with a rounding R of 0.01 to 1"),
+                ("cluster-speed", ["--rounded", "hull:0.2"], "--rounded has 'hull:0.2': give cube:R or disk:R"),
+                ("cluster-speed", ["--rounded", "none,cube:0.15"], "--rounded has 'none' beside bodies: give one or the other"),
                 ("compare-peers", ["--codes", "ours", "--bodies", "100000"], "--bodies is 100000, which do not fit the scene: give"),
                 ("demo", ["--scenes", "moon"], "invalid choice: 'moon'")):
             with self.subTest(f"{script} {' '.join(words)}"):

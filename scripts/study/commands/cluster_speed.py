@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Times clusters (one body, one atom) against stock fix multisphere in the same scenes, in turn, with the same binary."""
+"""Times clusters (one body, one atom) against stock fix multisphere, and rounded bodies against clusters, in the same scenes, in turn, with the
+same binary."""
 import dataclasses
 import functools
 import pathlib
@@ -20,6 +21,10 @@ SHORT_STEP = 2e-5  # of what is timed [s]
 BARS = {"settled": {"cube:8": 3, "cube:27": 7, "disk:48": 10, "cube:64": 14}, "drum": {"cube:8": 3, "cube:27": 7, "disk:48": 12, "cube:64": 16},
         "collapsing": {"cube:8": 5, "cube:27": 13, "disk:48": 18, "cube:64": 30}}
 BARS["flowing"] = BARS["collapsing"]
+# Rounded bodies: the cluster beside which each family is timed, its words but for the rounding, and the time over that of the cluster.
+PARTNERS = {"cube": 27, "disk": 48}
+ROUNDED = {"cube": "smooth cube", "disk": "smooth disk aspect 0.3092"}
+ROUNDED_BAR = 1.0
 COLUMN = ("collapsing", "flowing")
 GEOMETRY = {
     "settled": {},
@@ -32,15 +37,21 @@ GEOMETRY["flowing"] = GEOMETRY["collapsing"]
 
 @dataclasses.dataclass(frozen=True)
 class Bodies:
-    """What is timed: carrier (sphere: plain spheres; cluster: ours; multisphere: stock), scene, family and number of its spheres, how many."""
+    """What is timed: carrier (sphere: plain spheres; cluster: ours; multisphere: stock), scene, family and number of its spheres, how many.
+    With a rounding it is a rounded body beside the cluster of that number."""
     carrier: str
     scene: str
     family: str
     count: int
     number: int
+    rounding: float = 0
 
     def name(self):
-        return f"{self.scene}, {self.carrier} {self.family} {self.count}, {self.number} bodies"
+        kind = f"rounded {self.family} {self.rounding:g}" if self.rounding else f"{self.carrier} {self.family} {self.count}"
+        return f"{self.scene}, {kind}, {self.number} bodies"
+
+    def shape(self):
+        return f"{ROUNDED[self.family]} rounding {self.rounding:g}" if self.rounding else f"{self.family} {self.count}"
 
     def long_step(self):
         """At 50 us stock's beds of disks, whose spheres are small and touch many at once, fly apart: 20 us, and as much time."""
@@ -65,7 +76,7 @@ class Bodies:
         # Stock's `shear` of a cylinder is an angular velocity [rad/s], whatever its page says, and it gives the wall the speed
         # it would have at a sub-sphere's centre: 50 rpm at the hole's surface, for spheres of equal volume that do not overlap.
         given["turning"] = f"shear x {5.236 * HOLE / (HOLE - RADIUS / self.count ** (1 / 3)):.4f}"
-        shape = f"15485863 atom_type 1 density constant 2619 shape {self.family} {self.count} diameter 6.35e-3"
+        shape = f"15485863 atom_type 1 density constant 2619 shape {self.shape()} diameter 6.35e-3"
         if self.carrier == "cluster":
             given |= {"wall": "wall/gran/cluster", "body": f"particletemplate/cluster {shape}", "move": "nve/cluster", "turning": "rotate 5.236",
                       "pair": "gran/cluster model hertz tangential history rolling_friction off", "counted": 1}
@@ -196,24 +207,56 @@ class Speed:
         found = self.store.run_all("speed", jobs.values())
         return None if self.chosen.plan else Compared(list(runs.needed(found, jobs).values()))
 
-    def memory(self, count, number):
-        bodies = Bodies("cluster", "settled", "cube", count, number)
+    def memory(self, bodies):
         jobs = {"": memory_job(self.dem, self.prepared(bodies), bodies)}
         found = self.store.run_all("memory", jobs.values())
         return None if self.chosen.plan else runs.needed(found, jobs)[""]["memory"]
+
+    def memory_per_body(self, bodies):
+        """The difference of a settled bed of four times the bodies and of this one, as a process alone varies by some 200 kB [kB]; None where
+        nothing is run."""
+        many = dataclasses.replace(bodies, number=4 * bodies.number)
+        least, most = self.memory(bodies), self.memory(many)
+        return (most - least) / (many.number - bodies.number) if most else None
+
+
+def rounded_rows(speed, words):
+    """Rows of the table of rounded bodies, each beside the cluster of its family."""
+    rows = []
+    for scene in speed.chosen.scenes:
+        number = speed.chosen.bodies * (2 if scene in COLUMN else 1)
+        for word in words:
+            family, rounding = word.split(":")
+            cluster = Bodies("cluster", scene, family, PARTNERS[family], number)
+            told = speed.compare((speed.dem, dataclasses.replace(cluster, rounding=float(rounding))), (speed.dem, cluster))
+            if told:
+                bar = ROUNDED_BAR if scene in ("settled", "drum") else "-"
+                ours, parts = told.median(0), told.parts[0]
+                rows.append([scene, f"{family} {float(rounding):g}", f"{family[0].upper()}{PARTNERS[family]}", f"{ours:.3f}",
+                             f"{told.median(1):.3f}", *(f"{r:.2f}" for r in told.ratio(0, 1)), bar, *of_parts(ours, parts)])
+    return rows
+
+
+def of_parts(ours, parts):
+    """Contacts per body, ns per contact and the shares of the step, as words of a table."""
+    contacts = parts["contacts"]
+    return [f"{contacts:.1f}", f"{1000 * ours / contacts if contacts else 0:.0f}",
+            *(f"{parts[name]:.0f}" for name in ("pairs", "walls", "motion", "lists", "rest"))]
 
 
 def main():
     parser = options.Parser(
         "cluster-speed", "Milliseconds of processor time per body and 1000 steps, for ours and for stock, their ratio and the required one; contacts per "
-        "body, nanoseconds per contact and the share of each part of the step for ours; then C64 and a one-sphere cluster in units of a stock sphere, plain "
+        "body, nanoseconds per contact and the share of each part of the step for ours; the same for rounded bodies beside clusters (a cube beside C27, a "
+        "disk of the aspect 0.3092 beside D48); then C64 and a one-sphere cluster in units of a stock sphere, plain "
         "spheres with and without the library, and memory per body. What is compared takes turns; times are medians of the turns, ratios the median (least "
         "to largest) of the turns' ratios. settled: a bed at rest on 50 x 50 mm, periodic. drum: a hole of R 63.5 mm at 50 rpm. collapsing: a column of "
         "twice as many bodies, 50 mm wide and about twice as high, from the step at which its gate is gone. flowing: the same column 80 to 160 ms after that, "
         "when it moves fastest, at the step of 50 us (disks: 20 us). Both sides run the same steps of the same length (20 us) from beds that each has "
-        "prepared for itself.", "settled and drum, C8 and C64, once, a quarter of the steps", at_once=1)
+        "prepared for itself.", "settled and drum, C8, C64 and a rounded cube, once, a quarter of the steps", at_once=1)
     parser.add_argument("--scenes", action=options.Words, choices=list(GEOMETRY), help="default: all")
     parser.add_argument("--shapes", action=options.Words, metavar="FAMILY:N", help="default: cube:8 cube:27 disk:48 cube:64")
+    parser.add_argument("--rounded", action=options.Words, metavar="FAMILY:ROUNDING", help="rounded cubes and disks, or none (default: cube:0.15 disk:0.3)")
     parser.add_argument("--bodies", type=options.at_least_one, default=500, metavar="N", help="of settled and drum (default 500; collapsing and flowing have "
                         "twice as many)")
     parser.add_argument("--repeat", type=options.at_least_one, metavar="N", help="turns (default 3, with --quick 1)")
@@ -225,6 +268,14 @@ def main():
         for pair in chosen.shapes or ():
             if not re.fullmatch(r"[a-z]+:[1-9]\d*", pair):
                 parser.error(f"--shapes has '{pair}': give FAMILY:N, such as cube:8")
+        for pair in chosen.rounded or ():
+            family, _, rounding = pair.partition(":")
+            if pair != "none" and not (family in ROUNDED and re.fullmatch(r"[01]|[01]?\.\d+", rounding) and 0.01 <= float(rounding) <= 1):
+                parser.error(f"--rounded has '{pair}': give cube:R or disk:R with a rounding R of 0.01 to 1, such as cube:0.15, or none")
+        if chosen.rounded and "none" in chosen.rounded and len(chosen.rounded) > 1:
+            parser.error("--rounded has 'none' beside bodies: give one or the other")
+        chosen.rounded = chosen.rounded or (["cube:0.15"] if chosen.quick else ["cube:0.15", "disk:0.3"])
+        chosen.rounded = [pair for pair in chosen.rounded if pair != "none"]
         chosen.scenes = chosen.scenes or (["settled", "drum"] if chosen.quick else list(GEOMETRY))
         chosen.shapes = chosen.shapes or (["cube:8", "cube:64"] if chosen.quick else ["cube:8", "cube:27", "disk:48", "cube:64"])
         chosen.repeat = chosen.repeat or (1 if chosen.quick else 3)
@@ -243,15 +294,19 @@ def main():
             sides = [(speed.dem, Bodies(carrier, scene, family, int(count), number)) for carrier in ("cluster", "multisphere")]
             told = speed.compare(*sides)
             if told:
-                ours, parts = told.median(0), told.parts[0]
-                contacts = parts["contacts"]
+                ours = told.median(0)
                 rows.append([scene, pair.replace(":", ""), f"{ours:.3f}", f"{told.median(1):.3f}", *(f"{r:.2f}" for r in told.ratio(1, 0)),
-                             BARS[scene].get(pair, "-"), f"{contacts:.1f}", f"{1000 * ours / contacts if contacts else 0:.0f}",
-                             *(f"{parts[name]:.0f}" for name in ("pairs", "walls", "motion", "lists", "rest"))])
+                             BARS[scene].get(pair, "-"), *of_parts(ours, told.parts[0])])
     if rows:
         shown = ["scene", "shape", "ours ms", "stock ms", "ratio", "least", "largest", "required", "contacts", "ns each", "pairs %", "walls",
                  "motion", "lists", "rest"]
         tables.write_csv(chosen.out / "cluster-speed.csv", header, rows)
+        print(tables.text(shown, rows))
+        page.append(tables.markdown(shown, rows))
+    if rows := rounded_rows(speed, chosen.rounded):
+        shown = ["scene", "rounded", "cluster", "rounded ms", "cluster ms", "ratio", *shown[5:]]
+        tables.write_csv(chosen.out / "rounded-speed.csv", ["scene", "rounded", "cluster", "rounded_ms_per_body_per_1000_steps", "cluster_ms", "times_as_long",
+                                                            *header[5:]], rows)
         print(tables.text(shown, rows))
         page.append(tables.markdown(shown, rows))
     said = []
@@ -265,16 +320,19 @@ def main():
             said.append(f"plain spheres: the library makes the run {told.words(3, 0)} times as fast (required 1.0)")
         said.append(f"settled bed, in units of a stock sphere ({told.median(0):.3f}): one-sphere cluster {told.words(1, 0)} (required 1.2), "
                     f"C64 {told.words(2, 0)} (required 3)")
-    # What a body more takes: differences of large runs, as a process alone varies by some 200 kB.
-    many = 4 * chosen.bodies
-    least, most = speed.memory(64, chosen.bodies), speed.memory(64, many)
-    if most:
-        said.append(f"memory per C64 body: {(most - least) / (many - chosen.bodies):.1f} kB (required 4)")
+    memory = speed.memory_per_body(one("cluster", 64))
+    if memory:
+        said.append(f"memory per C64 body: {memory:.1f} kB (required 4)")
+    for pair in chosen.rounded:
+        family, rounding = pair.split(":")
+        memory = speed.memory_per_body(Bodies("cluster", "settled", family, PARTNERS[family], chosen.bodies, float(rounding)))
+        if memory:
+            said.append(f"memory per rounded {family} of {float(rounding):g}: {memory:.1f} kB")
     if chosen.portable:
         told = speed.compare((speed.dem, one("cluster", 64)), (chosen.portable / "bin" / "eccentra-dem", one("cluster", 64)))
         said += [f"portable build: C64 takes {told.words(1, 0)} times as long (required 1.6)"] if told else []
     if chosen.ranks > 1:
-        crowd = (speed.dem, one("cluster", 64, number=many))
+        crowd = (speed.dem, one("cluster", 64, number=4 * chosen.bodies))
         told = speed.compare(crowd, crowd, ranks=[1, chosen.ranks])
         said += [f"{chosen.ranks} ranks: {told.words(0, 1)} times as fast as one, wall clock (required 1.8 for two)"] if told else []
     if chosen.plan:
