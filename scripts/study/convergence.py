@@ -71,7 +71,9 @@ def words_of(points):
         text += " The deviation does not fall as a power of N that these errors can tell from zero."
     else:
         text += f" If the deviation goes to zero, it falls as N^-p with p = {plain.power:.2f} +- {plain.power_error:.2f}."
-    if with_rest and not math.isnan(with_rest.rest_error):
+    if with_rest and with_rest.rest_error > 1:  # more than the reference itself
+        text += " These errors do not determine a rest."
+    elif with_rest and not math.isnan(with_rest.rest_error):
         sure = abs(with_rest.rest) > SURE * with_rest.rest_error
         text += (f" With a rest, the rest is {100 * with_rest.rest:+.0f} +- {100 * with_rest.rest_error:.0f} %: "
                  + ("more spheres do not remove it." if sure else "no rest can be told from zero."))

@@ -385,8 +385,8 @@ class Study:
         points, _, bend = self.overall_points(groups)
         reference = groups[0].rows[-1].level.name
         told = "; ".join(f"{level.name} {error:.0f} % at {share:.2f} of the time" for level, (share, error) in points.items())
-        return (f"**{body.capitalize()}.** Median over {len(groups)} scenes of the deviation from {reference}: {told}."
-                + (f" The knee of the Pareto front is {bend.name}." if bend else "") + "\n")
+        return (f"**{body.capitalize()}.** Median over {len(groups)} scenes of the deviation from {reference}, or of its standard error where that is "
+                f"larger: {told}." + (f" The knee of the Pareto front is {bend.name}." if bend else "") + "\n")
 
     def overall(self, groups):
         """The one picture: cost and deviation over all scenes."""

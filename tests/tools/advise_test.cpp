@@ -7,7 +7,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <functional>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -89,6 +93,29 @@ TEST(Advise, SaysWhereDeviationAloneIsWithinTheErrorAndWhereNoLevelIs) {
   EXPECT_NE(text.find("no cheaper level"), std::string::npos);
   EXPECT_NE(text.find("levels.csv"), std::string::npos);
   EXPECT_EQ(json_of(strict, 0.01, "levels.csv")["advice"][0]["confidence"], "reference only");
+}
+
+TEST(Advise, AnswersFromTheTablesThatAreShipped) {
+  const char* source = std::getenv("ECCENTRA_SOURCE");
+  ASSERT_TRUE(source);
+  int tables = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(source) + "/cases/accuracy-cost/levels")) {
+    if (entry.path().extension() != ".csv")
+      continue;
+    ++tables;
+    std::ifstream in(entry.path());
+    const std::vector<LevelResult> results = read_level_results(in, entry.path());
+    std::set<std::string> bodies;
+    for (const LevelResult& row : results)
+      bodies.insert(row.body);
+    EXPECT_EQ(bodies.size(), 1) << entry.path();
+    for (const Advice& advice : advise(results, *bodies.begin(), "", 0.1)) {
+      EXPECT_NE(advice.confidence, Confidence::unknown) << entry.path() << ' ' << advice.scene;
+      EXPECT_GE(advice.level.runs, 3) << entry.path() << ' ' << advice.scene;
+      EXPECT_NE(advice.reference.level.find("0.15"), std::string::npos) << "the true body, which has its rounding";
+    }
+  }
+  EXPECT_GE(tables, 4);
 }
 
 TEST(Advise, WithoutDataItSaysThatItKnowsGeometryAlone) {
