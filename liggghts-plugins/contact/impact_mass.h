@@ -40,7 +40,8 @@ struct ImpactRows : ImpactTable<ContactBlock::capacity + contact_width> {
 
 /// A ratio of two numbers above 0, kept apart: a loop over contacts divides once.
 struct Ratio {
-  double over, under;
+  double over;  ///< numerator
+  double under; ///< denominator
 };
 
 /// m_c / m*, in (0, 1], of an impact of pair `k` along a unit normal `n`, at the arm `a` / `weight` from A's centre
