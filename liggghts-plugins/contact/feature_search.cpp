@@ -48,10 +48,8 @@ bool segments_closer(const Vector3d& a, const Vector3d& u, const Vector3d& b, co
   return (r + s * u - t * v).squaredNorm() < limit * limit;
 }
 
-/// Whether two edges may come to touch in the inside of both.
-bool may_cross(const Vector3d& a, const Vector3d& u, const Vector3d& b, const Vector3d& v, double limit, double skin) {
-  if (!segments_closer(a, u, b, v, limit))
-    return false;
+/// Whether two edges that are near each other may come to touch in the inside of both.
+bool may_cross(const Vector3d& a, const Vector3d& u, const Vector3d& b, const Vector3d& v, double skin) {
   const Vector3d r = a - b;
   const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), ur = u.dot(r), vr = v.dot(r),
                det = uu * vv - uv * uv;
@@ -90,10 +88,19 @@ double FeatureSearch::search(const BodyPair& pair, double skin) {
   const bool solids = a.core->solid != SolidKind::none && b.core->solid != SolidKind::none;
   double budget = std::numeric_limits<double>::max();
   if (solids) {
-    SeparatingAxis axis = best_face_axis(a, b, pair.offset);
-    const bool boxes = a.core->solid == SolidKind::box && b.core->solid == SolidKind::box;
-    if (axis.separation < (boxes ? limit : skin)) // the axes across edges of other polyhedra are too many
-      axis = least_axis(a, b, pair.offset);
+    SeparatingAxis axis;
+    if (a.core->solid == SolidKind::box && b.core->solid == SolidKind::box) {
+      BoxesApart boxes(a, b, pair.offset);
+      if (boxes.separation() < limit)
+        boxes.ask_edges();
+      if (boxes.separation() >= limit)
+        return boxes.separation() - reach;
+      axis = {boxes.separation(), boxes.normal()};
+    } else {
+      axis = best_face_axis(a, b, pair.offset);
+      if (axis.separation < skin) // the axes across edges of other polyhedra are too many
+        axis = least_axis(a, b, pair.offset);
+    }
     if (axis.separation >= limit)
       return axis.separation - reach;
     if (axis.separation < skin)
@@ -170,21 +177,63 @@ void FeatureSearch::find_edges(const BodyPair& pair, double limit, double skin, 
   const auto depth_of = [](const std::vector<double>& depth, const std::array<int, 2>& edge) {
     return std::min(depth[edge[0]], depth[edge[1]]);
   };
-  for (std::size_t i = 0; i < a.core->edges.size(); ++i) {
+  edge_of_.clear();
+  const int all = static_cast<int>(b.core->edges.size());
+  edges_.reserve(all);
+  for (int j = 0; j < all; ++j) {
+    const auto& edge = b.core->edges[j];
+    const double depth = depth_of(depth_b_, edge);
+    if (depth > budget)
+      continue;
+    const int n = static_cast<int>(edge_of_.size());
+    const Vector3d from = pair.offset + b.point(edge[0]), along = b.point(edge[1]) - b.point(edge[0]);
+    for (int d = 0; d < 3; ++d) {
+      edges_.row(fx + d)[n] = from[d];
+      edges_.row(ux + d)[n] = along[d];
+    }
+    edges_.row(square)[n] = along.squaredNorm();
+    edges_.row(behind)[n] = depth;
+    edge_of_.push_back(j);
+  }
+  const int count = static_cast<int>(edge_of_.size());
+  for (std::size_t i = 0; i < a.core->edges.size() && count > 0; ++i) {
     const auto& edge_a = a.core->edges[i];
     const double left = budget - depth_of(depth_a_, edge_a);
     if (left < 0)
       continue;
     const Vector3d from = a.point(edge_a[0]), along = a.point(edge_a[1]) - from;
-    for (std::size_t j = 0; j < b.core->edges.size(); ++j) {
-      const auto& edge_b = b.core->edges[j];
-      if (depth_of(depth_b_, edge_b) > left)
+    measure_edges(from, along, count);
+    for (int n = 0; n < count; ++n) {
+      if (edges_.row(behind)[n] > left || edges_.row(apart)[n] >= limit * limit)
         continue;
-      const Vector3d from_b = b.point(edge_b[0]), along_b = b.point(edge_b[1]) - from_b;
-      if (may_cross(from, along, pair.offset + from_b, along_b, limit, skin))
-        found_.push_back(
-            feature_id(a.core->line_feature(static_cast<int>(i)), b.core->line_feature(static_cast<int>(j))));
+      const Vector3d from_b(edges_.row(fx)[n], edges_.row(fy)[n], edges_.row(fz)[n]),
+          along_b(edges_.row(ux)[n], edges_.row(uy)[n], edges_.row(uz)[n]);
+      if (may_cross(from, along, from_b, along_b, skin))
+        found_.push_back(feature_id(a.core->line_feature(static_cast<int>(i)), b.core->line_feature(edge_of_[n])));
     }
+  }
+}
+
+/// The squared distances of edges of B from the segment a + s u.
+void FeatureSearch::measure_edges(const Vector3d& a, const Vector3d& u, int count) {
+  const double a0 = a.x(), a1 = a.y(), a2 = a.z(), u0 = u.x(), u1 = u.y(), u2 = u.z(), uu = u.squaredNorm();
+  const double *b0 = edges_.row(fx), *b1 = edges_.row(fy), *b2 = edges_.row(fz), *v0 = edges_.row(ux),
+               *v1 = edges_.row(uy), *v2 = edges_.row(uz), *squares = edges_.row(square);
+  double* found = edges_.row(apart);
+  const int padded = (count + lane_width - 1) / lane_width * lane_width;
+#pragma GCC ivdep
+  for (int n = 0; n < padded; ++n) {
+    const double r0 = a0 - b0[n], r1 = a1 - b1[n], r2 = a2 - b2[n], vv = squares[n];
+    const double uv = u0 * v0[n] + u1 * v1[n] + u2 * v2[n], ur = u0 * r0 + u1 * r1 + u2 * r2,
+                 vr = v0[n] * r0 + v1[n] * r1 + v2[n] * r2, det = uu * vv - uv * uv;
+    const bool skew = det > 1e-9 * uu * vv;
+    const double across = (uv * vr - ur * vv) / (skew ? det : 1.);
+    double s = skew ? (across < 0 ? 0. : across > 1 ? 1. : across) : 0.5;
+    const double along = (uv * s + vr) / vv, t = along < 0 ? 0. : along > 1 ? 1. : along;
+    const double back = (uv * t - ur) / uu, clamped = back < 0 ? 0. : back > 1 ? 1. : back;
+    s = t == along ? s : clamped;
+    const double d0 = r0 + s * u0 - t * v0[n], d1 = r1 + s * u1 - t * v1[n], d2 = r2 + s * u2 - t * v2[n];
+    found[n] = d0 * d0 + d1 * d1 + d2 * d2;
   }
 }
 

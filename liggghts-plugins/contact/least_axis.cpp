@@ -115,6 +115,67 @@ double separation_along(const PosedCore& a, const PosedCore& b, const Vector3d& 
   return -a.reach_along(-normal) - normal.dot(offset) - b.reach_along(normal);
 }
 
+BoxesApart::BoxesApart(const PosedCore& a, const PosedCore& b, const Vector3d& offset)
+    : a_(a), b_(b), to_b_(a.rotation.transpose() * offset), to_b_in_b_(b.rotation.transpose() * offset) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      cosine_[i][j] = a.rotation.col(i).dot(b.rotation.col(j));
+      size_[i][j] = std::abs(cosine_[i][j]);
+    }
+  const Vector3d &half_a = a.core->half, &half_b = b.core->half;
+  double best = -std::numeric_limits<double>::max();
+  for (int k = 0; k < 3; ++k) {
+    const double s =
+        std::abs(to_b_[k]) - half_a[k] - (size_[k][0] * half_b[0] + size_[k][1] * half_b[1] + size_[k][2] * half_b[2]);
+    if (s > best) {
+      best = s;
+      axis_ = k;
+    }
+  }
+  for (int k = 0; k < 3; ++k) {
+    const double s = std::abs(to_b_in_b_[k]) - half_b[k] -
+                     (size_[0][k] * half_a[0] + size_[1][k] * half_a[1] + size_[2][k] * half_a[2]);
+    if (s > best) {
+      best = s;
+      axis_ = 3 + k;
+    }
+  }
+  separation_ = best;
+}
+
+void BoxesApart::ask_edges() {
+  const Vector3d &half_a = a_.core->half, &half_b = b_.core->half;
+  const double margin = clearly * (a_.core->bound + b_.core->bound);
+  for (int i = 0; i < 3; ++i) {
+    const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+    for (int j = 0; j < 3; ++j) {
+      const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      const double square = cosine_[i1][j] * cosine_[i1][j] + cosine_[i2][j] * cosine_[i2][j];
+      if (!(square > parallel * parallel))
+        continue;
+      const double apart = std::abs(to_b_[i2] * cosine_[i1][j] - to_b_[i1] * cosine_[i2][j]);
+      const double reach =
+          half_a[i1] * size_[i2][j] + half_a[i2] * size_[i1][j] + half_b[j1] * size_[i][j2] + half_b[j2] * size_[i][j1];
+      const double s = (apart - reach) / std::sqrt(square);
+      if (s > separation_ + margin) {
+        separation_ = s;
+        axis_ = 6 + 3 * i + j;
+      }
+    }
+  }
+}
+
+Vector3d BoxesApart::normal() const {
+  Vector3d n;
+  if (axis_ < 3)
+    n = a_.rotation.col(axis_);
+  else if (axis_ < 6)
+    n = b_.rotation.col(axis_ - 3);
+  else
+    n = Vector3d(a_.rotation.col((axis_ - 6) / 3)).cross(Vector3d(b_.rotation.col((axis_ - 6) % 3))).normalized();
+  return n.dot(a_.rotation * to_b_) > 0 ? Vector3d(-n) : n;
+}
+
 SeparatingAxis best_face_axis(const PosedCore& a, const PosedCore& b, const Vector3d& offset) {
   Best best(a, b, offset);
   best.ask_faces(a, -1, offset);
@@ -123,6 +184,11 @@ SeparatingAxis best_face_axis(const PosedCore& a, const PosedCore& b, const Vect
 }
 
 SeparatingAxis least_axis(const PosedCore& a, const PosedCore& b, const Vector3d& offset) {
+  if (a.core->solid == SolidKind::box && b.core->solid == SolidKind::box) {
+    BoxesApart boxes(a, b, offset);
+    boxes.ask_edges();
+    return {boxes.separation(), boxes.normal()};
+  }
   Best best(a, b, offset);
   best.ask_faces(a, -1, offset);
   best.ask_faces(b, 1, offset);

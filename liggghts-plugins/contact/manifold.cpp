@@ -59,6 +59,15 @@ Line line_of(const PosedCore& posed, int line) {
 
 } // namespace
 
+bool boxes_sunk(const PosedCore& a, const PosedCore& b, const Vector3d& offset, const int* candidates, int count) {
+  if (count == 0 || candidates[count - 1] != feature_id(a.core->solid_feature(), b.core->solid_feature()))
+    return false;
+  BoxesApart boxes(a, b, offset);
+  if (boxes.separation() < 0)
+    boxes.ask_edges();
+  return boxes.separation() < 0;
+}
+
 void Manifolds::clear() {
   pairs_.clear();
   points_.clear();
@@ -71,13 +80,42 @@ void Manifolds::clear() {
   for (RimLanes& lanes : rim_lanes_)
     lanes.count = 0;
   rim_polyhedra_.clear();
+  two_boxes_.forget_cores();
+  of_boxes_.clear();
   contacts_.clear();
   first_.clear();
   gap_.clear();
   sunk_.clear();
 }
 
+/// Two boxes whose cores do not overlap: takes their contacts down at once. False for other pairs.
+bool Manifolds::add_boxes(const BodyPair& bodies, const int* candidates, int count) {
+  const PosedCore &a = *bodies.a.posed, &b = *bodies.b.posed;
+  if (a.core->solid != SolidKind::box || b.core->solid != SolidKind::box ||
+      boxes_sunk(a, b, bodies.offset, candidates, count))
+    return false;
+  Double4 column_a[3], column_b[3];
+  for (int k = 0; k < 3; ++k) {
+    column_a[k] = Double4{a.rotation(0, k), a.rotation(1, k), a.rotation(2, k), 0};
+    column_b[k] = Double4{b.rotation(0, k), b.rotation(1, k), b.rotation(2, k), 0};
+  }
+  const double radius_a = radius_of(bodies.a, 0), reach = radius_a + radius_of(bodies.b, 0);
+  two_boxes_.find({a.core, column_a}, {b.core, column_b},
+                  Double4{bodies.offset.x(), bodies.offset.y(), bodies.offset.z(), 0}, reach, candidates, count);
+  Pair pair = {};
+  pair.bodies = bodies;
+  pair.first_box = static_cast<int>(of_boxes_.size());
+  for (const BoxTouch& t : two_boxes_)
+    of_boxes_.push_back(contact::contact_of(t, reach, radius_a));
+  pair.last_box = static_cast<int>(of_boxes_.size());
+  pair.box_gap = two_boxes_.gap();
+  pairs_.push_back(pair);
+  return true;
+}
+
 void Manifolds::add(const BodyPair& bodies, const int* candidates, int count) {
+  if (add_boxes(bodies, candidates, count))
+    return;
   Pair pair;
   pair.bodies = bodies;
   pair.first_point = static_cast<int>(points_.size());
@@ -182,6 +220,12 @@ void Manifolds::evaluate() {
   for (const Pair& pair : pairs_) {
     const int first = static_cast<int>(contacts_.size());
     first_.push_back(first);
+    if (pair.first_box >= 0) {
+      contacts_.insert(contacts_.end(), of_boxes_.begin() + pair.first_box, of_boxes_.begin() + pair.last_box);
+      sunk_.push_back(0);
+      gap_.push_back(pair.box_gap);
+      continue;
+    }
     double gap = std::numeric_limits<double>::max();
     take_points(pair, gap);
     take_rim_points(pair, gap);

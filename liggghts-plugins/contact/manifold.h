@@ -4,6 +4,7 @@
 #pragma once
 
 #include "contact/arc_minimum.h"
+#include "contact/box_contacts.h"
 #include "contact/contact_core.h"
 #include "contact/manifold_lanes.h"
 #include "contact/rim_lanes.h"
@@ -29,11 +30,22 @@ struct Contact {
   Eigen::Vector3d contact_point() const { return arm - (radius_a - overlap() / 2) * normal; }
 };
 
+/// A contact of two boxes, with the reach of the pair and the radius of A's rounding [m].
+inline Contact contact_of(const BoxTouch& t, double reach, double radius_a) {
+  return {
+      t.id,     t.elastic, {t.arm[0], t.arm[1], t.arm[2]}, {t.normal[0], t.normal[1], t.normal[2]}, t.distance, reach,
+      radius_a, t.weight};
+}
+
 /// A body in a pair: `extra` is added to the radius of its rounding (plain spheres).
 struct ContactBody {
   const PosedCore* posed; ///< must outlive the pair
   double extra = 0;       ///< [m]
 };
+
+/// Whether two boxes with these candidates overlap with their cores, so that their contacts need more than BoxContacts.
+bool boxes_sunk(const PosedCore& a, const PosedCore& b, const Eigen::Vector3d& offset, const int* candidates,
+                int count);
 
 /// Two bodies; `offset` leads from A's centre to B's.
 struct BodyPair {
@@ -113,8 +125,11 @@ class Manifolds {
     int first_point, first_rim, first_rim_point, first_edge, first_arc, first_line; ///< of the pair
     int last_point, last_rim, last_rim_point, last_edge, last_arc, last_line;
     bool may_be_sunk;
+    int first_box = -1, last_box = -1; ///< of two boxes, whose contacts are known already: into of_boxes_
+    double box_gap = 0;
   };
 
+  bool add_boxes(const BodyPair& pair, const int* candidates, int count);
   void add_point(const BodyPair& pair, int feature, int other, bool of_b);
   int add_rim_point(const BodyPair& pair, int feature, bool of_b, int first_rim);
   RimLanes& lanes_on(const ContactCore& solid) {
@@ -138,6 +153,8 @@ class Manifolds {
   std::vector<RimPoint> rim_points_;
   std::vector<ArcState> arcs_;
   std::vector<ArcExtreme> extremes_; ///< of the arc at hand
+  BoxContacts two_boxes_;
+  std::vector<Contact> of_boxes_; ///< contacts of the pairs of boxes
   BoxLanes boxes_;
   DiskLanes disks_;
   RimLanes rim_lanes_[3];                         ///< on disks, boxes, other solids

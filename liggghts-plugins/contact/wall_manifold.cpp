@@ -39,6 +39,17 @@ template <typename Distance> class WallContacts {
     }
   }
 
+  /// Points alone, where nothing else needs to know them.
+  void take_points_alone() {
+    for (int k = 0; k < core_.points; ++k) {
+      const Vector3d p = posed_.point(k);
+      const shape::CoreDistance at = distance_(p);
+      const double reach = (core_.solid == SolidKind::none ? core_.point_radius[k] : core_.radius) + extra_;
+      if (at.distance < reach)
+        contacts_.push_back({k, false, p, at.normal, at.distance, reach, reach, 1});
+    }
+  }
+
   /// The closest or farthest point of each arc of a disk's rims.
   void take_arcs() {
     const double reach = core_.radius + extra_, step = 2 * M_PI / core_.ring;
@@ -170,9 +181,12 @@ Vector3d from_axis(const Vector3d& point, const CylinderWall& wall) {
 void plane_contacts(const ContactBody& body, const Vector3d& normal, double height, std::vector<Contact>& contacts) {
   const auto distance = [&](const Vector3d& p) { return shape::CoreDistance{height + normal.dot(p), normal}; };
   WallContacts<decltype(distance)> wall(body, distance, contacts);
+  if (!body.posed->core->is_disk()) {
+    wall.take_points_alone();
+    return;
+  }
   wall.take_points();
-  if (body.posed->core->is_disk())
-    wall.take_arcs();
+  wall.take_arcs();
   wall.finish();
 }
 
@@ -184,9 +198,12 @@ void hole_contacts(const ContactBody& body, const CylinderWall& cylinder, std::v
                                rho > 0 ? Vector3d(-radial / rho) : Vector3d(cylinder.direction.unitOrthogonal())};
   };
   WallContacts<decltype(distance)> wall(body, distance, contacts);
+  if (!body.posed->core->is_disk()) {
+    wall.take_points_alone();
+    return;
+  }
   wall.take_points();
-  if (body.posed->core->is_disk())
-    wall.take_arcs();
+  wall.take_arcs();
   wall.finish();
 }
 

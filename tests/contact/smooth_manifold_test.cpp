@@ -325,6 +325,53 @@ TEST(SmoothManifold, ForceIsContinuous) {
   EXPECT_LT(disk_jumps, 0.07 * disk_paths);
 }
 
+// Boxes have a way of their own, which finds what the way of all polyhedra finds.
+TEST(SmoothManifold, TwoBoxesAreTwoPolyhedra) {
+  Random r(12);
+  const ContactCore cube(made("smooth cube rounding .15")), box(made("smooth box 1 2 3 rounding .3"));
+  const auto as_polyhedron = [](ContactCore core) {
+    core.solid = SolidKind::polyhedron;
+    return core;
+  };
+  int poses = 0, ties = 0, contacts = 0, elastic = 0, weighted = 0;
+  for (const ContactCore* a : {&cube, &box})
+    for (const ContactCore* b : {&cube, &box}) {
+      const ContactCore slow_a = as_polyhedron(*a), slow_b = as_polyhedron(*b);
+      const double reach = a->radius + b->radius, one_spring = std::pow(0.03 * reach, 1.5);
+      for (int n = 0; n < 1500; ++n) {
+        const Pose pose = random_pose(*a, *b, r, reach * r.uniform(0.02, 1.1));
+        Pose slow = pose;
+        slow.a.core = &slow_a;
+        slow.b.core = &slow_b;
+        const Found found = find(pose, 0.1 * reach), expected = find(slow, 0.1 * reach);
+        EXPECT_NEAR(found.gap, expected.gap, 1e-12);
+        const Load load = load_of(found.contacts), slow_load = load_of(expected.contacts);
+        EXPECT_LT((load.force - slow_load.force).norm(), 1e-7 * one_spring);
+        EXPECT_LT((load.torque - slow_load.torque).norm(), 1e-7 * one_spring * b->bound);
+        // Where a closest point is at an end to round-off, the spring is the vertex's or the edge's.
+        ++poses;
+        if (!std::equal(found.contacts.begin(), found.contacts.end(), expected.contacts.begin(),
+                        expected.contacts.end(),
+                        [](const Contact& c, const Contact& e) { return c.id == e.id && c.elastic == e.elastic; })) {
+          ++ties;
+          continue;
+        }
+        for (std::size_t k = 0; k < found.contacts.size(); ++k) {
+          const Contact &c = found.contacts[k], &e = expected.contacts[k];
+          EXPECT_NEAR(c.distance, e.distance, 1e-11);
+          EXPECT_LT((c.normal - e.normal).norm(), 1e-9);
+          ++contacts;
+          elastic += c.elastic;
+          weighted += c.weight < 1;
+        }
+      }
+    }
+  EXPECT_LT(ties, 0.02 * poses);
+  EXPECT_GT(contacts, 5000);
+  EXPECT_GT(elastic, 100);
+  EXPECT_GT(weighted, 1000);
+}
+
 TEST(SmoothManifold, RoundingOneIsASphere) {
   const ContactCore ball{made("smooth cube rounding 1")}, sphere{std::vector<Vector3d>{Vector3d::Zero()}, {1.}};
   ContactCore plain; // an atom's radius is added to it

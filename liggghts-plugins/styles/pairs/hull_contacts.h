@@ -4,6 +4,7 @@
 #pragma once
 
 #include "contact/body_state.h"
+#include "contact/box_contacts.h"
 #include "contact/feature_search.h"
 #include "contact/manifold.h"
 #include "styles/pairs/near_pairs.h"
@@ -20,10 +21,14 @@ class HullContacts {
  public:
   /// So many pairs are evaluated together.
   static constexpr int enough = 16;
+  /// Forces are computed once so many contacts are in the block: enough to fill vectors, few enough to stay in the
+  /// first-level cache.
+  static constexpr int in_block = 24;
 
   /// A new step: bodies have moved.
   void begin_step(int bodies) {
     ++step_;
+    boxes.forget_cores();
     if (static_cast<int>(posed_.size()) < bodies) {
       posed_.resize(bodies);
       posed_at_.resize(bodies, 0);
@@ -55,6 +60,8 @@ class HullContacts {
     Eigen::Vector3d force, torque;
   };
 
+  contact::BoxContacts boxes;
+  std::vector<contact::Contact> of_boxes; ///< of a pair of boxes with elastic corrections
   contact::FeatureSearch search;
   contact::Manifolds manifolds;
   std::vector<WaitingPair> waiting; ///< one per pair of the manifolds

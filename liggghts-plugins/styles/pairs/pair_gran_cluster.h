@@ -114,10 +114,15 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   // Pairs with a rounded body (pair_gran_cluster_hulls.cpp).
   void wait_hulls(int number, const NearPair& p, const contact::Double4& to_b);
   float search_features(const NearPair& p, const double* offset, float skin);
+  bool add_boxes(int number, const NearPair& p, const contact::Double4& to_b);
   void evaluate_hulls();
+  void take_manifolds();
+  void add_hull_contacts(WaitingPair& pair, const contact::Contact* contacts, int count);
+  void make_room_in_block(int contacts);
   void evaluate_large_hull(WaitingPair& pair, const contact::Contact* contacts, int count, int real);
   template <class Block>
   void add_hull_pair(Block& block, WaitingPair& waiting, const contact::Contact* contacts, int count);
+  void add_box_pair(WaitingPair& waiting);
   template <class Block> void finish_hull_block(Block& block);
   void add_corrections();
 

@@ -76,6 +76,7 @@ template <class Block> void PairGranCluster::evaluate_waiting(Block& c) {
   single_contacts_ = spheres;
   if (filled_ > 0)
     finish_block<false>(c);
+  pairs_in_block_ = filled_ = 0;
 }
 
 /// Forces of the pairs in the block; `known_geometry`: normals, overlaps and contact radii are in it.

@@ -23,11 +23,6 @@ namespace {
 /// Cores deeper in each other than this part of the smaller body's bounding radius are beyond any contact law.
 constexpr double kMaxSunk = 0.9;
 
-int real_contacts(const std::vector<contact::Contact>& all, int first, int last) {
-  return static_cast<int>(
-      std::count_if(all.begin() + first, all.begin() + last, [](const contact::Contact& c) { return !c.elastic; }));
-}
-
 /// The row of a contact that is an elastic force alone.
 ContactRecord record_of(const contact::Contact& contact, const NearPair& near, const Eigen::Vector3d& force,
                         const Eigen::Vector3d& torque) {
@@ -55,6 +50,8 @@ ContactRecord record_of(const contact::Contact& contact, const NearPair& near, c
 void PairGranCluster::wait_hulls(int number, const NearPair& p, const contact::Double4& to_b) {
   if (waiting_.count() > 0) // contacts are noted in the order of the pairs
     evaluate_waiting();
+  if (add_boxes(number, p, to_b))
+    return;
   const double offset[3] = {to_b[0], to_b[1], to_b[2]};
   hulls_->manifolds.add(hulls_->pair(p, *near_, offset), near_->candidates.at(p.candidate_first), p.candidate_count);
   hulls_->waiting.emplace_back();
@@ -67,7 +64,78 @@ void PairGranCluster::wait_hulls(int number, const NearPair& p, const contact::D
   pair.number = number;
   pair.may_idle = true;
   if (hulls_->manifolds.pairs() >= HullContacts::enough)
-    evaluate_hulls();
+    take_manifolds();
+}
+
+/// Two boxes whose cores do not overlap: their contacts go straight to the block. False for other pairs.
+bool PairGranCluster::add_boxes(int number, const NearPair& p, const contact::Double4& to_b) {
+  const contact::ContactCore &core_a = near_->surface_a(p).core, &core_b = near_->surface_b(p).core;
+  if (core_a.solid != contact::SolidKind::box || core_b.solid != contact::SolidKind::box)
+    return false;
+  const int* candidates = near_->candidates.at(p.candidate_first);
+  if (candidates[p.candidate_count - 1] == contact::feature_id(core_a.solid_feature(), core_b.solid_feature())) {
+    const double offset[3] = {to_b[0], to_b[1], to_b[2]};
+    const contact::BodyPair pair = hulls_->pair(p, *near_, offset);
+    if (contact::boxes_sunk(*pair.a.posed, *pair.b.posed, pair.offset, candidates, p.candidate_count))
+      return false;
+  }
+  if (!hulls_->waiting.empty())
+    take_manifolds();
+  WaitingPair waiting; // what add_pair() and add_hull_pair() read of it
+  waiting.a = &near_->body(p.a);
+  waiting.b = &near_->body(p.b);
+  waiting.extra_a = waiting.a->extra_radius;
+  waiting.extra_b = waiting.b->extra_radius;
+  waiting.to_b = contact::Double4{to_b[0], to_b[1], to_b[2], 0};
+  waiting.number = number;
+  hulls_->boxes.find({&core_a, waiting.a->column}, {&core_b, waiting.b->column}, waiting.to_b,
+                     core_a.radius + core_b.radius, candidates, p.candidate_count);
+  if (hulls_->boxes.size() == 0) {
+    const double offset[3] = {to_b[0], to_b[1], to_b[2]};
+    may_idle(number, offset, hulls_->boxes.gap());
+  } else {
+    add_box_pair(waiting);
+  }
+  return true;
+}
+
+/// Writes the contacts of two boxes to the block.
+void PairGranCluster::add_box_pair(WaitingPair& waiting) {
+  const contact::BoxContacts& touches = hulls_->boxes;
+  const int count = touches.size();
+  const contact::ContactCore &core_a = waiting.a->surface->core, &core_b = waiting.b->surface->core;
+  const double reach = core_a.radius + core_b.radius;
+  if (count > contact::ContactBlock::capacity || touches.any_elastic()) {
+    std::vector<contact::Contact>& contacts = hulls_->of_boxes;
+    contacts.clear();
+    for (const contact::BoxTouch& t : touches)
+      contacts.push_back(contact::contact_of(t, reach, core_a.radius));
+    add_hull_contacts(waiting, contacts.data(), count);
+    return;
+  }
+  make_room_in_block(count);
+  const double radius = core_a.contact_radius * core_b.contact_radius / (core_a.contact_radius + core_b.contact_radius);
+  const int first = filled_;
+  int m = first;
+  contact::ContactBlock& c = block_;
+  for (const contact::BoxTouch& t : touches) {
+    for (int k = 0; k < 3; ++k) {
+      c.normal[k][m] = t.normal[k];
+      c.arm[k][m] = t.arm[k];
+    }
+    const double overlap = reach - t.distance;
+    c.radius_a[m] = core_a.radius;
+    c.radius_b[m] = core_b.radius; // for outputs alone
+    c.overlap[m] = overlap;
+    c.contact_radius[m] = t.weight * std::sqrt(radius * overlap);
+    c.curvature[m] = 0;
+    block_ids_[m] = t.id;
+    ++m;
+  }
+  waiting.last_contact = filled_ = m;
+  add_pair(c, waiting, first);
+  if (filled_ >= HullContacts::in_block)
+    finish_hull_block(block_);
 }
 
 /// Features of a pair that can touch soon; returns the relative motion that they allow [m].
@@ -75,20 +143,18 @@ float PairGranCluster::search_features(const NearPair& p, const double* offset, 
   return static_cast<float>(hulls_->search.search(hulls_->pair(p, *near_, offset), skin));
 }
 
-/// Finds the contacts of all pairs with rounded bodies that wait, and adds their forces.
+/// Finds the contacts of all pairs with rounded bodies that wait, and adds the forces of all that are in the block.
 void PairGranCluster::evaluate_hulls() {
   HullContacts& hulls = *hulls_;
-  if (hulls.waiting.empty())
-    return;
+  if (!hulls.waiting.empty())
+    take_manifolds();
+  finish_hull_block(block_);
+}
+
+void PairGranCluster::take_manifolds() {
+  HullContacts& hulls = *hulls_;
   hulls.manifolds.evaluate();
   const std::vector<contact::Contact>& all = hulls.manifolds.contacts();
-  const std::size_t room = contact::ContactBlock::capacity + contact::contact_width;
-  if (block_ids_.size() < room) {
-    block_ids_.resize(room);
-    block_pair_.resize(room);
-  }
-  pairs_in_block_ = filled_ = 0;
-  hulls.corrections.clear();
   for (int n = 0; n < hulls.manifolds.pairs(); ++n) {
     WaitingPair& pair = hulls.waiting[n];
     const int first = hulls.manifolds.first(n), last = hulls.manifolds.first(n + 1);
@@ -104,19 +170,35 @@ void PairGranCluster::evaluate_hulls() {
                          " have run into each other by most of their size: use a smaller time step (see fix "
                          "timestep/limit) or a larger Young's modulus")
                             .c_str());
-    const int count = real_contacts(all, first, last);
-    if (count > contact::ContactBlock::capacity) {
-      finish_hull_block(block_);
-      evaluate_large_hull(pair, all.data() + first, last - first, count);
-      continue;
-    }
-    if (filled_ + count > contact::ContactBlock::capacity || pairs_in_block_ >= contact::ContactBlock::capacity)
-      finish_hull_block(block_);
-    add_hull_pair(block_, pair, all.data() + first, last - first);
+    add_hull_contacts(pair, all.data() + first, last - first);
   }
-  finish_hull_block(block_);
   hulls.manifolds.clear();
   hulls.waiting.clear();
+}
+
+/// Adds the contacts of a pair to the block, whose forces are added once it is full.
+void PairGranCluster::add_hull_contacts(WaitingPair& pair, const contact::Contact* contacts, int count) {
+  const int real =
+      static_cast<int>(std::count_if(contacts, contacts + count, [](const contact::Contact& c) { return !c.elastic; }));
+  if (real > contact::ContactBlock::capacity) {
+    finish_hull_block(block_);
+    evaluate_large_hull(pair, contacts, count, real);
+    return;
+  }
+  make_room_in_block(real);
+  add_hull_pair(block_, pair, contacts, count);
+  if (filled_ >= HullContacts::in_block)
+    finish_hull_block(block_);
+}
+
+void PairGranCluster::make_room_in_block(int contacts) {
+  if (filled_ + contacts > contact::ContactBlock::capacity || pairs_in_block_ >= contact::ContactBlock::capacity)
+    finish_hull_block(block_);
+  constexpr std::size_t room = contact::ContactBlock::capacity + contact::contact_width;
+  if (block_ids_.size() < room) {
+    block_ids_.resize(room);
+    block_pair_.resize(room);
+  }
 }
 
 void PairGranCluster::evaluate_large_hull(WaitingPair& pair, const contact::Contact* contacts, int count, int real) {
