@@ -32,7 +32,8 @@ STUDIES = {
         "--levels": ["S1", "C8"], "--fillings": ["0.1"], "--ranks": ["1"], "--quick": [], "--run": ["S1"], "--accuracy": [], "--angle": ["40"],
         "--velocity": ["0.72"], "--rpm": ["0"], "--end": ["30"], "--length": ["6"], "--fluid-step": ["0.01"], "--tolerances": ["tight"]}, ()),
     "compare-rolling": (["--scenes", "slope", "section", "--models", "cluster", "cdt", "--seeds", "1"], {
-        "--scenes": ["drum"], "--models": ["off"], "--seeds": ["2"], "--quick": [], "--mu": ["0.5"], "--shape": ["cube 8"], "--cost": []}, ()),
+        "--scenes": ["drum"], "--models": ["off"], "--seeds": ["2"], "--quick": [], "--mu": ["0.5"], "--shape": ["cube 8"], "--cost": [], "--cohesion": []},
+        ()),
     "effects": ([], {"--scenes": [], "--annulus": [], "--off": [], "--rheology": ["newtonian 0.1"], "--gradient": ["6"], "--steps": ["2000"],
                      "--quick": []}, ()),
     "closure-cost": ([], {"--repetitions": ["2"], "--quick": []}, ("--csv", "--coupled")),
@@ -40,8 +41,9 @@ STUDIES = {
     "creeping-drag": (["--indices", "1", "--bingham", "1", "--aspects", "1"], {
         "--indices": ["0.6"], "--bingham": ["10"], "--aspects": ["2"], "--checks": ["no"], "--quick": []}, ()),
     "oriented-section": (["--shapes", "disk:7", "--inclinations", "80", "--seeds", "1", "--count", "50"], {
-        "--shapes": ["cube:8"], "--inclinations": ["0"], "--seeds": ["2"], "--count": ["60"], "--quick": []}, ()),
-    "drag-against-measurement": (["--data", "POINTS"], {"--data": ["OTHER_POINTS"], "--laws": ["chien"]}, ()),
+        "--shapes": ["cube:8"], "--inclinations": ["0"], "--seeds": ["2"], "--count": ["60"], "--forces": ["sphere"], "--tau0": ["1"],
+        "--yield-forms": ["cross"], "--quick": []}, ()),
+    "drag-against-measurement": (["--data", "POINTS"], {"--data": ["OTHER_POINTS"], "--laws": ["chien"], "--falling": []}, ()),
     "rounding": (["--scenes", "heap", "--bodies", "cube", "--seeds", "1"], {
         "--scenes": ["drum"], "--bodies": ["disk"], "--seeds": ["2"], "--quick": []}, ()),
     "solver-cost": ([], {"--cells": ["4 24 10"], "--length": ["0.2"], "--steps": ["3"], "--turns": ["1"], "--pressure": ["pcg"],
@@ -65,6 +67,8 @@ STARTS["calibrate-rolling", "--mu-shape"] = [*STUDIES["calibrate-rolling"][0], "
 STARTS["full-scene", "--quick"] = ["--levels", "S1"]
 STARTS |= {("full-scene", option): ["--run", "S1"] for option in ("--angle", "--velocity", "--rpm", "--end", "--length", "--fluid-step", "--tolerances")}
 STARTS["rounding", "--quick"] = []
+STARTS["compare-rolling", "--cohesion"] = ["--scenes", "heap", "--seeds", "1"]
+STARTS["oriented-section", "--yield-forms"] = [*STUDIES["oriented-section"][0], "--tau0", "1"]
 STARTS["paper", "--quick"] = ["--figures", "7"]
 
 
@@ -76,7 +80,7 @@ def run(script, *words, root=ROOT, build=BUILD, **environment):
 def own_options(script):
     """All options that --help names."""
     said = subprocess.run([ROOT / "scripts" / script, "--help"], capture_output=True, text=True, check=True).stdout
-    return set(re.findall(r"(?<![\w'-])--[a-z][a-z-]*", said[said.index("options:"):])) - {"--output", "--build"} - set(options.NO_INPUTS)
+    return set(re.findall(r"(?<![\w'-])--[a-z][a-z0-9-]*", said[said.index("options:"):])) - {"--output", "--build"} - set(options.NO_INPUTS)
 
 
 def replaced(base, option, value):
