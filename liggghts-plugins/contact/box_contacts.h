@@ -25,8 +25,8 @@ struct BoxTouch {
 
 /// A box: its core and the columns of the rotation from body to world.
 struct TurnedBox {
-  const ContactCore* core;
-  const Double4* column;
+  const ContactCore* core; ///< in the body frame
+  const Double4* column;   ///< three, unit
 };
 
 /// Finds the contacts of one pair of boxes at a time.
@@ -41,7 +41,7 @@ class BoxContacts {
 
   /// The contacts, ids ascending.
   const BoxTouch* begin() const { return touches_.data(); }
-  const BoxTouch* end() const { return touches_.data() + count_; }
+  const BoxTouch* end() const { return touches_.data() + count_; } ///< one past the last
   /// Number of contacts.
   int size() const { return count_; }
   /// How far the closest candidate is from touching [m]; of use where none touches.
