@@ -32,9 +32,9 @@ inline double dot3(const Double4& u, const Double4& v) {
 }
 /// The sums of four vectors, whose fourth lanes are 0.
 inline Double4 sums(const Double4& a, const Double4& b, const Double4& c, const Double4& d) {
-  const Double4 ab = __builtin_shuffle(a, b, Long4{0, 4, 2, 6}) + __builtin_shuffle(a, b, Long4{1, 5, 3, 7}),
-                cd = __builtin_shuffle(c, d, Long4{0, 4, 2, 6}) + __builtin_shuffle(c, d, Long4{1, 5, 3, 7});
-  return __builtin_shuffle(ab, cd, Long4{0, 1, 4, 5}) + __builtin_shuffle(ab, cd, Long4{2, 3, 6, 7});
+  const Double4 ab = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7),
+                cd = __builtin_shufflevector(c, d, 0, 4, 2, 6) + __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  return __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
 }
 inline Double4 magnitude(const Double4& v) {
   return reinterpret_cast<Double4>(reinterpret_cast<Long4>(v) & ~sign_bit);
@@ -52,13 +52,13 @@ inline Double4 vertex_of(const TurnedBox& box, int k) {
 /// Rows of the matrix with these columns.
 inline void transpose(const Double4* column, Double4* row) {
   const Double4 zero = {0, 0, 0, 0};
-  const Double4 low = __builtin_shuffle(column[0], column[1], Long4{0, 4, 2, 6}),
-                high = __builtin_shuffle(column[0], column[1], Long4{1, 5, 3, 7}),
-                low2 = __builtin_shuffle(column[2], zero, Long4{0, 4, 2, 6}),
-                high2 = __builtin_shuffle(column[2], zero, Long4{1, 5, 3, 7});
-  row[0] = __builtin_shuffle(low, low2, Long4{0, 1, 4, 5});
-  row[1] = __builtin_shuffle(high, high2, Long4{0, 1, 4, 5});
-  row[2] = __builtin_shuffle(low, low2, Long4{2, 3, 6, 7});
+  const Double4 low = __builtin_shufflevector(column[0], column[1], 0, 4, 2, 6),
+                high = __builtin_shufflevector(column[0], column[1], 1, 5, 3, 7),
+                low2 = __builtin_shufflevector(column[2], zero, 0, 4, 2, 6),
+                high2 = __builtin_shufflevector(column[2], zero, 1, 5, 3, 7);
+  row[0] = __builtin_shufflevector(low, low2, 0, 1, 4, 5);
+  row[1] = __builtin_shufflevector(high, high2, 0, 1, 4, 5);
+  row[2] = __builtin_shufflevector(low, low2, 2, 3, 6, 7);
 }
 
 } // namespace
@@ -94,8 +94,8 @@ const BoxContacts::Edges& BoxContacts::edges_of(const ContactCore& core) {
 void BoxContacts::find(const TurnedBox& a, const TurnedBox& b, const Double4& to_b, double reach, const int* ids,
                        int count) {
   constexpr int most = 5; // an edge with four corrections
-  if (touches_.size() < static_cast<std::size_t>(most * count))
-    touches_.resize(2 * most * count);
+  if (touches_.size() < static_cast<std::size_t>(most) * count)
+    touches_.resize(2 * static_cast<std::size_t>(most) * count);
   count_ = 0;
   to_b_ = to_b;
   reach_ = reach;
