@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -54,7 +55,8 @@ double pressure_drop(double cells_per_diameter, int layers) {
 enum class Dragged { sphere, disk, disk_at_its_centre };
 
 /// (Largest - smallest)/mean of the force on a body that is dragged at 0.1 m/s through a periodic box, about a
-/// straight line, as its wake still grows; of the last two thirds. `coupling`: lines of couplingProperties.
+/// straight line, as its wake still grows; of the last two thirds. Infinite where the flow blows up. `coupling`: lines
+/// of couplingProperties.
 double spread_of_force(double cell_in_diameters, double viscosity, Dragged body = Dragged::sphere,
                        const std::string& coupling = "") {
   BoxCase box;
@@ -95,7 +97,10 @@ double spread_of_force(double cell_in_diameters, double viscosity, Dragged body 
   std::ostringstream name;
   name << "crossing_" << cell_in_diameters << '_' << viscosity << '_' << int(body);
   const Outcome outcome = run(box, name.str());
-  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  if (outcome.status != 0) { // blown up
+    std::printf("%s\n", outcome.text.c_str());
+    return std::numeric_limits<double>::infinity();
+  }
   std::ifstream in(outcome.folder + "/force");
   std::vector<double> force;
   for (double value; in >> value;)
@@ -129,24 +134,28 @@ TEST(MeshIndependence, ASphereThatCrossesCellsFeelsASteadyForceInThickFluids) {
       EXPECT_LT(spread_of_force(cell, viscosity), 0.02) << "cells of " << cell << " d, " << viscosity << " Pa s";
 }
 
-// A body larger than a cell is felt by the cells that it covers.
+// A body larger than a cell is felt by the cells that it covers. Prints the table of docs/benchmarks/exchange.md.
 TEST(MeshIndependence, ADiskThatCrossesCellsFeelsASteadierForceAtSixPointsThanAtItsCentre) {
-  for (const double cell : {0.5, 1.0}) {
-    const double spread = spread_of_force(cell, 10.0, Dragged::disk);
-    EXPECT_LT(spread, 0.005) << "cells of " << cell << " d";
-    EXPECT_LT(spread, 0.9 * spread_of_force(cell, 10.0, Dragged::disk_at_its_centre)) << "cells of " << cell << " d";
-  }
+  for (const double viscosity : {0.1, 10.0})
+    for (const double cell : {0.5, 1.0, 2.0}) {
+      const double spread = spread_of_force(cell, viscosity, Dragged::disk);
+      const double at_centre = spread_of_force(cell, viscosity, Dragged::disk_at_its_centre);
+      std::printf("%g Pa s, cells of %g d: six points %.2f %%, centre %.2f %%\n", viscosity, cell, 100 * spread,
+                  100 * at_centre);
+      EXPECT_LT(spread, 0.01) << viscosity << " Pa s, cells of " << cell << " d";
+      EXPECT_LT(spread, 0.9 * at_centre) << viscosity << " Pa s, cells of " << cell << " d";
+    }
 }
 
-// For docs/benchmarks/exchange.md: of cells smaller than the body, and of the ways in which it is spread.
-TEST(MeshIndependence, DISABLED_TableOfADiskThatCrossesCells) {
-  for (const char* method : {"voidFraction diffusion;", "voidFraction gaussian;", "voidFraction centre;"})
-    for (const double viscosity : {0.1, 10.0})
-      for (const double cell : {0.5, 1.0, 2.0})
-        for (const Dragged body : {Dragged::disk, Dragged::disk_at_its_centre})
-          std::printf("%-24s %4g Pa s, cells of %g d, %s: %.2f %%\n", method, viscosity, cell,
-                      body == Dragged::disk ? "six points" : "centre",
-                      100 * spread_of_force(cell, viscosity, body, method));
+// What fails: without diffusion the force varies by more than itself, and on cells of 0.5 d the flow blows up.
+TEST(MeshIndependence, ADiskThatCrossesCellsNeedsDiffusion) {
+  for (const char* method : {"voidFraction gaussian;", "voidFraction centre;"})
+    for (const double cell : {0.5, 1.0, 2.0}) {
+      const double spread = spread_of_force(cell, 0.1, Dragged::disk, method);
+      std::printf("%s 0.1 Pa s, cells of %g d: %.1f times\n", method, cell, spread);
+      EXPECT_GT(spread, 1) << method << " cells of " << cell << " d";
+      EXPECT_EQ(std::isinf(spread), cell == 0.5) << method << " cells of " << cell << " d";
+    }
 }
 
 TEST(MeshIndependence, DragInsideABedChangesLittleFromAQuarterToFourDiametersPerCell) {
