@@ -88,7 +88,7 @@ conservativeDiffusion::conservativeDiffusion(const fvMesh& mesh, double length, 
 
 conservativeDiffusion::conservativeDiffusion(const fvMesh& mesh, const std::vector<double>& conductance, int steps,
                                              double tolerance)
-    : mesh_(mesh), halo_(mesh, conducting(mesh, conductance)), diagonal_(mesh.nCells(), 0.0) {
+    : mesh_(mesh), halo_(mesh, conducting(mesh, conductance)), steps_(steps), diagonal_(mesh.nCells(), 0.0) {
   const auto coefficientOf = [&](label cell, label face) { return conductance[face] / mesh.V()[cell]; };
   rowBegin_.assign(mesh.nCells() + 1, 0);
   forNeighbours(mesh, [&](label cell, label neighbour, label face) {
@@ -116,8 +116,43 @@ conservativeDiffusion::conservativeDiffusion(const fvMesh& mesh, const std::vect
   for (auto* values : {&diagonal_, &coefficient_, &haloCoefficient_})
     for (double& value : *values)
       value /= largest;
+  scale_ = largest;
   divideInParts();
   orderRows();
+  layered_ = isLayered();
+  factors_.resize(parts_.size());
+}
+
+bool conservativeDiffusion::isLayered() const {
+  const auto spreads = [&](const Part& part) { return rowBegin_[part.end] > rowBegin_[part.begin]; };
+  const label spreading = static_cast<label>(std::count_if(parts_.begin(), parts_.end(), spreads));
+  return returnReduce(spreading, sumOp<label>()) > Pstream::nProcs();
+}
+
+partFactors& conservativeDiffusion::factorsOf(const Part& part) {
+  auto& factors = factors_[&part - parts_.data()];
+  if (!factors) {
+    std::vector<MatrixEntry> lower;
+    for (label row = part.begin, i = 0; row < part.end; ++row, ++i) {
+      const double volume = mesh_.V()[cellOf_[row]];
+      lower.push_back({static_cast<int>(i), static_cast<int>(i), volume * (1 + scale_ * diagonal_[row])});
+      for (label k = rowBegin_[row]; k < rowBegin_[row + 1]; ++k)
+        if (neighbour_[k] < i)
+          lower.push_back({static_cast<int>(i), static_cast<int>(neighbour_[k]), -volume * scale_ * coefficient_[k]});
+    }
+    factors = std::make_unique<partFactors>(static_cast<int>(part.end - part.begin), lower);
+  }
+  return *factors;
+}
+
+template <int width> void conservativeDiffusion::takeSteps(const Part& part, FieldBundle<width>& values) {
+  const scalarField& volume = mesh_.V();
+  const partFactors& factors = factorsOf(part);
+  for (int n = 0; n < steps_; ++n) {
+    for (label i = 0; i < part.end - part.begin; ++i)
+      values[i].at *= volume[cellOf_[part.begin + i]];
+    factors.solve(values);
+  }
 }
 
 void conservativeDiffusion::divideInParts() {
@@ -201,6 +236,12 @@ void conservativeDiffusion::apply(const Part& part, int used, Load load, Store s
   FieldBundle<width> start(cells), now(cells, Bundled<width>{}), before(now);
   for (label i = 0; i < cells; ++i)
     start[i] = load(cellOf_[part.begin + i]);
+  if (layered_ && !part.acrossRanks) {
+    takeSteps(part, start);
+    for (label i = 0; i < cells; ++i)
+      store(cellOf_[part.begin + i], start[i]);
+    return;
+  }
   // Clenshaw's recurrence.
   for (std::size_t k = series_.size() - 1; k >= 1; --k) {
     step(part, 2.0, now, used, series_[k], start, before);
