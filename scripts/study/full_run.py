@@ -36,6 +36,7 @@ solvers
             nPreSweeps              0;
             nPostSweeps             1;
             nCellsInCoarsestLevel   {coarsest};
+            coarsestLevelCorr       {{ solver sparseCholesky; }}
             tolerance               1e-9;
             relTol                  0.01;
         }}
@@ -66,13 +67,19 @@ def cells_of(length):
     return f"{ACROSS} {AROUND} {max(1, round(length / CELL_LENGTH))}"
 
 
+def interval_of(chosen, critical):
+    """DEM steps in a step of the fluid: as chosen, or by the rule of docs/choosing-steps.md."""
+    return chosen.interval or section.steps_per_fluid_step(critical, chosen.fluid_step)
+
+
 def options_of(chosen, level, critical):
     """Of the case's `run`, without --."""
-    interval = section.steps_per_fluid_step(critical, chosen.fluid_step)
+    interval = interval_of(chosen, critical)
     return {"length": chosen.length, "cells": cells_of(chosen.length), "inclination": chosen.angle, "velocity": chosen.velocity,
             "entry": chosen.velocity, "rpm": chosen.rpm, "portions": PORTIONS, "fluid_step": chosen.fluid_step, "interval": interval,
             "seconds": chosen.end, "ranks": chosen.ranks, "bodies": 1, "snapshots": snapshots_of(chosen),
-            "report": 1 if chosen.accuracy else max(1, round(REPORT / chosen.fluid_step)), **section.level_words(level)}
+            "report": 1 if chosen.accuracy else max(1, round(REPORT / chosen.fluid_step)),
+            **({"balance": interval} if chosen.ranks > 1 else {}), **section.level_words(level)}
 
 
 def snapshots_of(chosen):
