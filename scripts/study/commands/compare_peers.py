@@ -7,7 +7,7 @@ import os
 import shutil
 import subprocess
 
-from .. import levels, options, programs, runs, tables
+from .. import levels, options, peer_bed, programs, runs, tables
 from ..programs import SCENES, Failure, digest_of, run
 
 DIAMETER = 6.35e-3
@@ -224,12 +224,14 @@ def main():
     parser.add_argument("--install", action="store_true", help="installs the Debian packages lammps and yade if they are missing (1 GB)")
     parser.add_argument("--codes", action=options.Words, choices=list(CODES), default=list(CODES), help="default: all")
     parser.add_argument("--shapes", nargs="+", choices=SHAPES, default=list(SHAPES), metavar="SHAPE", help="of: " + ", ".join(SHAPES))
-    parser.add_argument("--scenes", action=options.Words, choices=("drop", "bed"), default=["drop", "bed"], help="default: both")
+    parser.add_argument("--scenes", action=options.Words, choices=("drop", "bed", "coupled"), default=["drop", "bed"],
+                        help="coupled: a fluidised bed of spheres beside OpenFOAM's DPMFoam, whatever codes and shapes (default: drop bed)")
     parser.add_argument("--bodies", type=options.at_least_one, metavar="N", help="in the bed (default 300)")
     parser.add_argument("--repeat", type=options.at_least_one, metavar="N", help="the least of so many times, in turn (default 2)")
 
     def check(chosen):
-        missing = sorted({PROGRAMS[code][1] for code in chosen.codes if code in PROGRAMS and not shutil.which(PROGRAMS[code][0])})
+        chosen.dry = [scene for scene in chosen.scenes if scene != "coupled"]
+        missing = sorted({PROGRAMS[code][1] for code in chosen.codes if chosen.dry and code in PROGRAMS and not shutil.which(PROGRAMS[code][0])})
         if missing and not chosen.install and not chosen.plan:
             parser.error(f"{' and '.join(missing)} not found: add --install, or leave them out with --codes ours stock")
         chosen.bodies, chosen.repeat = chosen.bodies or (30 if chosen.quick else 300), chosen.repeat or (1 if chosen.quick else 2)
@@ -239,10 +241,11 @@ def main():
         if missing and not chosen.plan:
             install(missing)
 
-    chosen = parser.settle(("eccentra-dem", "clusterShape"), check)
+    chosen = parser.settle(("eccentra-dem", "clusterShape", "annulusFoam"), check)
     codes, store = chosen.codes, chosen.store
     restitution, cost = {}, {}
-    for words in chosen.shapes:
+    coupled = peer_bed.run(chosen, 0.04 if chosen.quick else 0.2) if "coupled" in chosen.scenes else []
+    for words in chosen.shapes if chosen.dry else []:
         shape = Shape(words, chosen)
         shape.bodies, shape.fill_top = chosen.bodies, chosen.fill_top
         if "drop" in chosen.scenes:
@@ -267,6 +270,9 @@ def main():
         return 0
 
     lines, below = [], False
+    if coupled:
+        lines.append("A bed of spheres that water fluidises, one core\n\n" + tables.text(peer_bed.HEADER, coupled))
+        tables.write_csv(chosen.out / "compare-peers-coupled.csv", peer_bed.HEADER, coupled)
     table = lambda title, of: f"{title}\n\n" + tables.text(["", *chosen.shapes], [[CODES[code], *(
         f"{of[code, shape]:.3f}" if (code, shape) in of else None for shape in chosen.shapes)] for code in codes])
     if restitution:
@@ -283,7 +289,8 @@ def main():
             lines.append(f"{words}: {ratio:.1f} times as fast as the faster LAMMPS style{verdict}")
     text = "\n".join(lines) + "\n"
     (chosen.out / "compare-peers.txt").write_text(text)
-    tables.write_csv(chosen.out / "compare-peers.csv", ["code", "shape", "restitution_of_0.9", "ms_per_body_per_1000_steps"],
-                     [[code, words, restitution.get((code, words), ""), cost.get((code, words), "")] for code in codes for words in chosen.shapes])
+    if chosen.dry:
+        tables.write_csv(chosen.out / "compare-peers.csv", ["code", "shape", "restitution_of_0.9", "ms_per_body_per_1000_steps"],
+                         [[code, words, restitution.get((code, words), ""), cost.get((code, words), "")] for code in codes for words in chosen.shapes])
     print(text, end="")
     return 1 if below else 0
