@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Makes LIGGGHTS's models by name and hands them one sub-contact after the other.
+// Hands LIGGGHTS's models one sub-contact after the other.
 #include "styles/models/stock_contact.h"
 
 #include "base/refusal.h"
 #include "contact/contact_models.h"
+#include "styles/models/stock_models.h"
 
 #include <mpi.h>
 
@@ -24,179 +25,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
 #include <set>
 #include <stdexcept>
-#include <type_traits>
 
 namespace eccentra::styles {
 
-namespace stock = LIGGGHTS::ContactModels;
-
-/// A contact whose normal force is there.
-struct StockContact::Begun {
-  stock::SurfacesIntersectData data{};
-  stock::ForceData on_a, on_b;
-  stock::ForceData friction_a, friction_b; ///< what the tangential model adds to them
-  double elastic = 0;                      ///< normal force without its damper [N]
-  double whole = 0;                        ///< normal force that waits while a model sees another one [N]
-  double adhesion = 0;                     ///< what cohesion adds to it [N]
-  bool touches = false;
-  std::vector<double> still; ///< history that does not move on
-};
-
-namespace {
-
-using LAMMPS_NS::LAMMPS;
-using Begun = StockContact::Begun;
-
-/// Counts the values of history that the models ask for.
-class History : public LIGGGHTS::IContactHistorySetup {
- public:
-  int add_history_value(std::string name, std::string) override {
-    if (name == "shearx")
-      shear = size;
-    return size++;
-  }
-  int size = 0, shear = -1;
-};
-
-/// Stands in for the contact model around the models.
-class Surroundings : public stock::ContactModelBase {
- public:
-  Surroundings(LAMMPS* lmp, bool wall) : ContactModelBase(lmp, wall) {}
-  void tally_pp(double, int, int, int) override {}
-  void tally_pw(double, int, int, int) override {}
-};
-
-/// A model of stock's, and its own code over contacts at once: a call through its base for each costs more than what
-/// many models compute.
-template <class Base> struct Made {
-  std::unique_ptr<Base> model;
-  void (*over)(Base& model, Begun* contacts, int n) = nullptr;
-  Base& operator*() const { return *model; }
-  Base* operator->() const { return model.get(); }
-  void intersect(Begun* contacts, int n) const { over(*model, contacts, n); }
-};
-
-template <class Base, class Model> void over_contacts(Base& base, Begun* contacts, int n) {
-  auto& model = static_cast<Model&>(base);
-  for (Begun* at = contacts; at != contacts + n; ++at) {
-    if (!at->touches)
-      continue;
-    if constexpr (std::is_same_v<Base, stock::TangentialModelBase>)
-      model.Model::surfacesIntersect(at->data, at->friction_a, at->friction_b);
-    else
-      model.Model::surfacesIntersect(at->data, at->on_a, at->on_b);
-  }
-}
-
-template <class Base>
-using Creators = std::map<std::string, std::function<Made<Base>(LAMMPS*, History*, Surroundings*)>>;
-
-template <class Base, class Model> Made<Base> make(LAMMPS* lmp, History* history, Surroundings* around) {
-  return {std::make_unique<Model>(lmp, history, around), &over_contacts<Base, Model>};
-}
-
-// LIGGGHTS lists its models by macros in their headers.
-const Creators<stock::NormalModelBase>& normal_models() {
-  static const Creators<stock::NormalModelBase> all = {
-      {"off", make<stock::NormalModelBase, stock::NormalModel<stock::NORMAL_OFF>>},
-#define NORMAL_MODEL(identifier, name, constant)                                                                       \
-  {#name, make<stock::NormalModelBase, stock::NormalModel<stock::identifier>>},
-#include "style_normal_model.h"
-#undef NORMAL_MODEL
-  };
-  return all;
-}
-
-const Creators<stock::TangentialModelBase>& tangential_models() {
-  static const Creators<stock::TangentialModelBase> all = {
-      {"off", make<stock::TangentialModelBase, stock::TangentialModel<stock::TANGENTIAL_OFF>>},
-#define TANGENTIAL_MODEL(identifier, name, constant)                                                                   \
-  {#name, make<stock::TangentialModelBase, stock::TangentialModel<stock::identifier>>},
-#include "style_tangential_model.h"
-#undef TANGENTIAL_MODEL
-  };
-  return all;
-}
-
-const Creators<stock::CohesionModelBase>& cohesion_models() {
-  static const Creators<stock::CohesionModelBase> all = {
-      {"off", make<stock::CohesionModelBase, stock::CohesionModel<stock::COHESION_OFF>>},
-#define COHESION_MODEL(identifier, name, constant)                                                                     \
-  {#name, make<stock::CohesionModelBase, stock::CohesionModel<stock::identifier>>},
-#include "style_cohesion_model.h"
-#undef COHESION_MODEL
-  };
-  return all;
-}
-
-const Creators<stock::RollingModelBase>& rolling_models() {
-  static const Creators<stock::RollingModelBase> all = {
-      {"off", make<stock::RollingModelBase, stock::RollingModel<stock::ROLLING_OFF>>},
-#define ROLLING_MODEL(identifier, name, constant)                                                                      \
-  {#name, make<stock::RollingModelBase, stock::RollingModel<stock::identifier>>},
-#include "style_rolling_model.h"
-#undef ROLLING_MODEL
-  };
-  return all;
-}
-
-template <class Visit> auto with_kind(const std::string& kind, Visit visit) {
-  if (kind == "model")
-    return visit(normal_models());
-  if (kind == "tangential")
-    return visit(tangential_models());
-  if (kind == "cohesion")
-    return visit(cohesion_models());
-  return visit(rolling_models());
-}
-
-std::set<std::string> stock_names(const std::string& kind) {
-  return with_kind(kind, [](const auto& models) {
-    std::set<std::string> names;
-    for (const auto& entry : models)
-      names.insert(entry.first);
-    return names;
-  });
-}
-
-std::string listed(const std::set<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names)
-    text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-template <class Map>
-auto created(const Map& models, const char* kind, const std::string& name, LAMMPS* lmp, History* history,
-             Surroundings* around) {
-  const auto found = models.find(name);
-  if (found == models.end())
-    base::refuse(
-        "{} '{}' is not one of LIGGGHTS's; expected it with tangential history or off, without rolling friction "
-        "and cohesion, or one of {}",
-        kind, name, StockContact::known(kind));
-  return found->second(lmp, history, around);
-}
-
-} // namespace
-
 struct StockContact::Models {
-  Models(LAMMPS* lmp, bool wall) : around(lmp, wall) {}
+  Models(LAMMPS_NS::LAMMPS* lmp, bool wall) : around(lmp, wall) {}
 
-  History history;
-  Surroundings around;
+  StockHistory history;
+  StockSurroundings around;
   using Surface = stock::SurfaceModel<stock::SURFACE_DEFAULT>;
   std::unique_ptr<Surface> surface;
-  Made<stock::NormalModelBase> normal;
-  Made<stock::CohesionModelBase> cohesion;
-  Made<stock::TangentialModelBase> tangential;
-  Made<stock::RollingModelBase> rolling;
-  std::vector<Begun> begun = std::vector<Begun>(1);
-  Begun aside; ///< for stiffness alone
+  StockModel<stock::NormalModelBase> normal;
+  StockModel<stock::CohesionModelBase> cohesion;
+  StockModel<stock::TangentialModelBase> tangential;
+  StockModel<stock::RollingModelBase> rolling;
+  std::vector<BegunContact> begun = std::vector<BegunContact>(1);
+  BegunContact aside; ///< for stiffness alone
   std::vector<double> scratch;
   std::vector<double*> rows; ///< of VelocitiesOfSides
   int flags = 0;
@@ -212,7 +58,7 @@ struct StockContact::Models {
   }
 };
 
-StockContact::StockContact(LAMMPS* lmp, bool wall) : lmp_(lmp), wall_(wall) {}
+StockContact::StockContact(LAMMPS_NS::LAMMPS* lmp, bool wall) : lmp_(lmp), wall_(wall) {}
 StockContact::~StockContact() = default;
 
 std::string StockContact::read_name(base::OptionReader& reader, const std::string& kind) {
@@ -235,15 +81,15 @@ void StockContact::choose(const StockModelNames& names, const std::vector<std::s
   names_ = names;
   Models& m = *models_;
   m.surface = std::make_unique<Models::Surface>(lmp_, &m.history, &m.around);
-  m.normal = created(normal_models(), "model", names.normal, lmp_, &m.history, &m.around);
+  m.normal = stock_normal(names.normal, lmp_, &m.history, &m.around);
   // What luding's models read beside a normal model without adhesion: 0.
   if (m.around.get_history_offset("kc_offset") < 0 && (names.tangential == "tan_luding" || names.rolling == "luding")) {
     m.around.add_history_offset("kc_offset", m.history.add_history_value("kc", "1"));
     m.around.add_history_offset("fo_offset", m.history.add_history_value("fo", "1"));
   }
-  m.cohesion = created(cohesion_models(), "cohesion", names.cohesion, lmp_, &m.history, &m.around);
-  m.tangential = created(tangential_models(), "tangential", names.tangential, lmp_, &m.history, &m.around);
-  m.rolling = created(rolling_models(), "rolling_friction", names.rolling, lmp_, &m.history, &m.around);
+  m.cohesion = stock_cohesion(names.cohesion, lmp_, &m.history, &m.around);
+  m.tangential = stock_tangential(names.tangential, lmp_, &m.history, &m.around);
+  m.rolling = stock_rolling(names.rolling, lmp_, &m.history, &m.around);
   Settings settings(lmp_);
   m.each([&](auto& model) { model.registerSettings(settings); });
   for (std::size_t k = 0; k + 1 < options.size(); k += 2)
@@ -332,7 +178,7 @@ void fill(stock::SurfacesIntersectData& data, StockSubContact& c, bool wall) {
 
 void StockContact::stiffness(StockSubContact& c) {
   Models& m = *models_;
-  Begun& at = m.aside;
+  BegunContact& at = m.aside;
   fill(at.data, c, wall_);
   std::copy_n(c.history, m.history.size, m.scratch.data());
   at.data.contact_history = m.scratch.data();
@@ -351,14 +197,14 @@ void StockContact::stiffness(StockSubContact& c) {
 
 /// The normal force of the last evaluation without its damper. Where `limitForce` has cut it off at 0 the damper does
 /// not tell: the model is asked again, without a velocity.
-double StockContact::elastic_force(const Begun& at, const StockSubContact& c) {
+double StockContact::elastic_force(const BegunContact& at, const StockSubContact& c) {
   const double damper = at.data.gamman * at.data.vn;
   if (at.data.Fn != 0 || damper == 0)
     return at.data.Fn + damper;
   if (viscous_)
     return at.data.kn * at.data.deltan; // of hooke, which divides by the velocity then
   Models& m = *models_;
-  Begun& still = m.aside;
+  BegunContact& still = m.aside;
   still.data = at.data;
   std::copy_n(c.history, m.history.size, m.scratch.data());
   still.data.contact_history = m.scratch.data();
@@ -371,7 +217,7 @@ double StockContact::elastic_force(const Begun& at, const StockSubContact& c) {
 }
 
 /// Leaves the contact its share of the dampers.
-void StockContact::keep_share(Begun& at, double share) {
+void StockContact::keep_share(BegunContact& at, double share) {
   stock::SurfacesIntersectData& data = at.data;
   const bool cut_off = data.Fn == 0;
   double normal = at.elastic - share * data.gamman * data.vn;
@@ -389,7 +235,7 @@ void StockContact::keep_share(Begun& at, double share) {
 
 /// Slip of the contact point in the middle of the step instead of what the velocities, which belong there, give at its
 /// end (contact_forces has the same).
-void StockContact::synchronise(Begun& at, const StockSubContact& c) {
+void StockContact::synchronise(BegunContact& at, const StockSubContact& c) {
   stock::SurfacesIntersectData& data = at.data;
   using Eigen::Vector3d;
   const Eigen::Map<const Vector3d> va(c.velocity_a), vb(c.velocity_b), wa(c.omega_a), wb(c.omega_b), arm_a(c.arm_a),
@@ -411,7 +257,7 @@ void StockContact::tangential(const StockSubContact* contacts, int n) {
   Models& m = *models_;
   const bool elastic = bound_ == contact::FrictionBound::elastic && friction_;
   for (int k = 0; k < n; ++k) {
-    Begun& at = m.begun[k];
+    BegunContact& at = m.begun[k];
     at.friction_a.reset();
     at.friction_b.reset();
     at.whole = at.data.Fn;
@@ -420,7 +266,7 @@ void StockContact::tangential(const StockSubContact* contacts, int n) {
   }
   m.tangential.intersect(m.begun.data(), n);
   for (int k = 0; k < n; ++k) {
-    Begun& at = m.begun[k];
+    BegunContact& at = m.begun[k];
     if (!at.touches)
       continue;
     double cut = 1;
@@ -473,7 +319,7 @@ class VelocitiesOfSides {
 
 /// Sub-spheres that do not touch. Liquid that a bridge moves is counted per volume of a sub-sphere, of which a body has
 /// more than one, and for bodies of this rank alone: that of a ghost is counted by its own.
-void StockContact::close(Begun& at, const StockSubContact& c) {
+void StockContact::close(BegunContact& at, const StockSubContact& c) {
   Models& m = *models_;
   const VelocitiesOfSides in_place(*lmp_->atom, m.rows, c);
   double* flux = m.liquid_flux ? m.liquid_flux->vector_atom : nullptr;
@@ -498,7 +344,7 @@ void StockContact::begin(StockSubContact* contacts, int n) {
     m.begun.resize(n + contact::ContactBlock::capacity);
   for (int k = 0; k < n; ++k) {
     StockSubContact& c = contacts[k];
-    Begun& at = m.begun[k];
+    BegunContact& at = m.begun[k];
     stock::SurfacesIntersectData& data = at.data;
     fill(data, c, wall_);
     data.contact_history = c.history;
@@ -573,7 +419,7 @@ void StockContact::finish(StockSubContact* contacts, int n) {
   Models& m = *models_;
   for (int k = 0; k < n; ++k) {
     const StockSubContact& c = contacts[k];
-    Begun& at = m.begun[k];
+    BegunContact& at = m.begun[k];
     if (!at.touches)
       continue;
     if (c.share != 1 || bound_ == contact::FrictionBound::elastic)
@@ -586,7 +432,7 @@ void StockContact::finish(StockSubContact* contacts, int n) {
   rolling(contacts, n);
   for (int k = 0; k < n; ++k) {
     StockSubContact& c = contacts[k];
-    Begun& at = m.begun[k];
+    BegunContact& at = m.begun[k];
     c.acts = true;
     if (at.touches) {
       m.cohesion->endSurfacesIntersect(at.data, at.on_a, at.on_b);

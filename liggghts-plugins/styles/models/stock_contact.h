@@ -51,6 +51,8 @@ struct StockSubContact {
   bool acts;                       ///< there is a force
 };
 
+struct BegunContact;
+
 class StockContact {
  public:
   StockContact(LAMMPS_NS::LAMMPS* lmp, bool wall);
@@ -93,18 +95,15 @@ class StockContact {
   void begin(StockSubContact* contacts, int n);
   void finish(StockSubContact* contacts, int n);
 
-  /// A contact between begin and finish.
-  struct Begun;
-
  private:
   struct Models;
-  void synchronise(Begun& begun, const StockSubContact& contact);
-  double elastic_force(const Begun& begun, const StockSubContact& contact);
-  void keep_share(Begun& begun, double share);
+  void synchronise(BegunContact& begun, const StockSubContact& contact);
+  double elastic_force(const BegunContact& begun, const StockSubContact& contact);
+  void keep_share(BegunContact& begun, double share);
   void cohesion(int n);
   void rolling(const StockSubContact* contacts, int n);
   void tangential(const StockSubContact* contacts, int n);
-  void close(Begun& begun, const StockSubContact& contact);
+  void close(BegunContact& begun, const StockSubContact& contact);
   LAMMPS_NS::LAMMPS* lmp_;
   bool wall_;
   double reach_ = 1;
