@@ -5,7 +5,7 @@
 
 #include "Pstream.H"
 #include "addToRunTimeSelectionTable.H"
-#include "globalIndex.H"
+#include "support/foam_compat.H"
 
 #include <Eigen/SparseCholesky>
 
@@ -45,7 +45,7 @@ List<labelList> numbersBeyond(const lduInterfaceFieldPtrsList& interfaces, const
 }
 
 Rows rowsOf(const lduMatrix& matrix, const FieldField<Field, scalar>& coefficients,
-            const lduInterfaceFieldPtrsList& interfaces, const globalIndex& cells) {
+            const lduInterfaceFieldPtrsList& interfaces, label first) {
   const labelUList &upper = matrix.lduAddr().upperAddr(), &lower = matrix.lduAddr().lowerAddr();
   const label own = matrix.diag().size();
   DynamicList<label> row(own + upper.size()), column(own + upper.size());
@@ -57,7 +57,7 @@ Rows rowsOf(const lduMatrix& matrix, const FieldField<Field, scalar>& coefficien
   };
   labelList numbers(own);
   forAll(numbers, celli) {
-    numbers[celli] = cells.toGlobal(celli);
+    numbers[celli] = first + celli;
     add(numbers[celli], numbers[celli], matrix.diag()[celli]);
   }
   forAll(upper, facei) {
@@ -101,11 +101,20 @@ bool isSingular(const std::vector<Entry>& entries, label size) {
 } // namespace
 
 struct sparseCholesky::Factors {
-  explicit Factors(label cellsOfThisRank, label ofMatrix)
-      : communicator(ofMatrix), cells(cellsOfThisRank, Pstream::msgType(), ofMatrix, Pstream::parRun()) {}
+  Factors(label cellsOfThisRank, label ofMatrix) : communicator(ofMatrix) {
+    labelList sizes(Pstream::nProcs(communicator), 0);
+    sizes[Pstream::myProcNo(communicator)] = cellsOfThisRank;
+    eccentra::compat::allGather(sizes, communicator);
+    begin.setSize(sizes.size() + 1, 0);
+    forAll(sizes, ranki) {
+      begin[ranki + 1] = begin[ranki] + sizes[ranki];
+    }
+  }
+  label first() const { return begin[Pstream::myProcNo(communicator)]; }
+  label size() const { return begin[begin.size() - 1]; }
 
   label communicator;
-  globalIndex cells;
+  labelList begin; ///< of the rows of each rank, and their end
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<scalar>> ldlt;
 };
 
@@ -116,7 +125,7 @@ sparseCholesky::sparseCholesky(const word& fieldName, const lduMatrix& matrix,
     : lduMatrix::solver(fieldName, matrix, interfaceBouCoeffs, interfaceIntCoeffs, interfaces, solverControls),
       factors_(new Factors(matrix.diag().size(), matrix.mesh().comm())) {
   Factors& f = *factors_;
-  const Rows own = rowsOf(matrix_, interfaceBouCoeffs_, interfaces_, f.cells);
+  const Rows own = rowsOf(matrix_, interfaceBouCoeffs_, interfaces_, f.first());
   const List<labelList> rows = gathered(own.row, f.communicator), columns = gathered(own.column, f.communicator);
   const List<scalarField> values = gathered(own.value, f.communicator);
   bool solved = true;
@@ -127,7 +136,7 @@ sparseCholesky::sparseCholesky(const word& fieldName, const lduMatrix& matrix,
         entries.emplace_back(rows[ranki][i], columns[ranki][i], values[ranki][i]);
       }
     }
-    const label size = f.cells.size();
+    const label size = f.size();
     if (isSingular(entries, size)) {
       entries.emplace_back(entries.front().row(), entries.front().row(), entries.front().value());
     }
@@ -140,7 +149,7 @@ sparseCholesky::sparseCholesky(const word& fieldName, const lduMatrix& matrix,
       solved = (d.array() > 0).all() || (d.array() < 0).all();
     }
   }
-  Pstream::scatter(solved, Pstream::msgType(), f.communicator);
+  eccentra::compat::broadcast(solved, f.communicator);
   if (!solved) {
     FatalErrorInFunction << "solver sparseCholesky of " << fieldName_
                          << ": the matrix is not definite; take another solver in system/fvSolution"
@@ -161,18 +170,18 @@ solverPerformance sparseCholesky::solve(scalarField& psi, const scalarField& sou
   const List<scalarField> parts = gathered(source, f.communicator);
   scalarField whole;
   if (Pstream::master(f.communicator)) {
-    Eigen::VectorXd right(f.cells.size());
+    Eigen::VectorXd right(f.size());
     forAll(parts, ranki) {
       forAll(parts[ranki], celli) {
-        right[f.cells.toGlobal(ranki, celli)] = parts[ranki][celli];
+        right[f.begin[ranki] + celli] = parts[ranki][celli];
       }
     }
     whole.setSize(right.size());
     Eigen::Map<Eigen::VectorXd>(whole.data(), whole.size()) = f.ldlt.solve(right);
   }
-  Pstream::scatter(whole, Pstream::msgType(), f.communicator);
+  eccentra::compat::broadcast(whole, f.communicator);
   forAll(psi, celli) {
-    psi[celli] = whole[f.cells.toGlobal(celli)];
+    psi[celli] = whole[f.first() + celli];
   }
 
   matrix_.Amul(product, psi, interfaceBouCoeffs_, interfaces_, cmpt);
