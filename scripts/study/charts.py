@@ -288,5 +288,6 @@ def write(path, title, panels, columns=3, size=SIZE):
             panel.finish(axes)
         drawn = io.StringIO()
         figure.savefig(drawn, format="svg", metadata={"Date": None, "Creator": None})
-        # To a hundredth of a point, without indentation: a third of the size less.
-        path.write_text(re.sub(r"(\d+\.\d\d)\d+", r"\1", re.sub(r"(?m)^ +", "", drawn.getvalue())))
+        # Places to a hundredth of a point, without indentation: a third of the size less. What is written keeps its digits.
+        shorter = lambda tag: re.sub(r"(\d+\.\d\d)\d+", r"\1", tag.group())
+        path.write_text(re.sub(r"<[^>]*>", shorter, re.sub(r"(?m)^ +", "", drawn.getvalue())))

@@ -615,6 +615,13 @@ class Charts(unittest.TestCase):
                                                                        line=True)], True, True, (1, "noise")))[1]
         self.assertGreater(len(text), len(without))  # an error is drawn
 
+    def test_small_numbers_keep_their_digits(self):
+        words, text = self.drawn(charts.Panel("p", "x", "y", [charts.Series("s", [charts.Point(k, 0.0441 + 0.0002 * k) for k in range(9)], line=True)]))
+        ticks = [word for word in words if word.startswith("0.04")]
+        self.assertGreater(len(ticks), 2)
+        self.assertEqual(len(ticks), len(set(ticks)), ticks)
+        self.assertNotRegex(text, r'="\d+\.\d{3}')  # places, of which a hundredth of a point is enough
+
     def test_bars_and_bodies(self):
         words, _ = self.drawn(charts.Bars("b", "ratio", ["one", "two"], {"first": [(1, 0.1), (2, math.nan)], "second": [(3, 0), (math.nan, 0)]}, True))
         self.assertEqual({"one", "two", "first", "second", "ratio"} & set(words), {"one", "two", "first", "second", "ratio"})
