@@ -9,6 +9,7 @@ TIMES = 6
 PIECE = 0.5  # of the hole, in the close picture [m]
 SLICE = 0.03  # of the cross-section [m]
 DIRECTIONS = 200  # in which a convex body has a point of its outline
+WIDE = 18  # of the strip of frames [inch]
 FASTEST = 0.6  # [m/s], of the scale of colours
 
 
@@ -94,16 +95,18 @@ def frame(axes, left, right, title):
 
 
 def whole_hole(path, name, case, step, length):
-    """Side views of the hole to scale at several times: a strip of frames."""
+    """Side views of the hole, as far as bodies have come, to scale at several times: a strip of frames."""
     from matplotlib import cm, collections
     from matplotlib.figure import Figure
     import numpy
     found = hole.pictures(case)
+    shown = hole.reached(hole.history(case, step, length), length)
     chosen = [found[round(k * (len(found) - 1) / TIMES)] for k in range(1, TIMES + 1)] if len(found) > TIMES else found
-    figure = Figure(figsize=(20, 0.75 * len(chosen) + 0.5), dpi=150, layout="constrained")
+    high = 0.45 + WIDE * 2.2 * hole.HOLE / shown  # of a frame with its title [inch]
+    figure = Figure(figsize=(WIDE, high * len(chosen) + 0.3), dpi=100, layout="constrained")
     for axes, (number, file) in zip(figure.subplots(len(chosen), 1, squeeze=False).flat, chosen):
         bodies = vtp.arrays_of(file)
-        frame(axes, 0, length, f"{name}, {number * step:.1f} s, {len(bodies['Points'])} bodies; bodies in front of the middle plane")
+        frame(axes, 0, shown, f"{name}, {number * step:.1f} s, {len(bodies['Points'])} bodies; bodies in front of the middle plane")
         front = bodies["Points"][:, 0] < 0
         speed = numpy.linalg.norm(bodies["velocity"][front], axis=1)
         size = numpy.full(front.sum(), section.DIAMETER)

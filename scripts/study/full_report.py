@@ -8,6 +8,7 @@ from . import charts, full_run, hole, section
 
 PAPER = ["paper", "32", "140,000", "25,837", "60", "0.001 / 1e-05", "90", "-"]
 ROWS = 6  # of the table over time
+ENTRY = 0.3  # behind the inlet, in which the bed begins [m]
 CONTACT = r"^\s*Step\s+Atoms.*pipe\[6\]"
 
 
@@ -49,6 +50,11 @@ def measures_of(case, step, length):
     return {"hold-up": mean_over(rows, "solid_concentration"), "front": hole.front_speed(pictures, length), "gradient": mean_over(rows, "pressure_gradient")}
 
 
+def developed(picture):
+    """Concentrations of a picture where neither inlet nor front are near."""
+    return [c for z, c, _ in picture["along"] if ENTRY <= z <= 0.5 * picture["front"]]
+
+
 def time_table(rows, pictures, contacts, step):
     """The state at some times."""
     table = []
@@ -70,15 +76,17 @@ TIME_HEADER = ["time [s]", "bodies", "solid [%]", "highest bed [mm]", "front [m]
 
 def chart(path, name, rows, pictures, length):
     """Space-time pictures of concentration and bed, and what changes in time."""
-    times, places = [p["time"] for p in pictures], [z for z, _, _ in pictures[0]["along"]]
-    maps = [charts.Map("solid concentration [%]", "time [s]", "along the hole [m]", times, places, [[100 * c for _, c, _ in p["along"]] for p in pictures]),
-            charts.Map("height of the bed [mm]", "time [s]", "along the hole [m]", times, places, [[1e3 * h for _, _, h in p["along"]] for p in pictures])]
+    shown = hole.reached(pictures, length)
+    near = [[row for row in p["along"] if row[0] < shown] for p in pictures]
+    times, places = [p["time"] for p in pictures], [z for z, _, _ in near[0]]
+    maps = [charts.Map("solid concentration [%]", "time [s]", "along the hole [m]", times, places, [[100 * c for _, c, _ in rows_of] for rows_of in near]),
+            charts.Map("height of the bed [mm]", "time [s]", "along the hole [m]", times, places, [[1e3 * h for _, _, h in rows_of] for rows_of in near])]
     line = lambda title, y, points, colour: charts.Panel(title, "time [s]", y, [charts.Series("", points, charts.COLOURS[colour], line=True, marks=False)])
     of = lambda column, factor=1.0: [charts.Point(row["time"], factor * row[column]) for row in rows]
     front = [charts.Point(p["time"], p["front"]) for p in pictures]
     panels = [*maps, line("front: 99 % of the solid are behind", "[m]", front, 0), line("solid in the hole", "[%]", of("solid_concentration", 100), 1),
               line("pressure gradient", "[Pa/m]", of("pressure_gradient"), 2), line("torque of the fluid on the pipe", "[N m]", of("pipe_torque"), 3)]
-    charts.write(path, f"The whole hole, {name}: {length:g} m", panels, columns=2)
+    charts.write(path, f"{name}: {shown:g} of {length:g} m", panels, columns=2)
 
 
 def cost_row(name, chosen, rows, interval, note):
@@ -103,6 +111,10 @@ def sentences(name, chosen, rows, pictures, note):
         densest = 100 * max(c for _, c, _ in pictures[-1]["along"])
         yield (f"{name}: speed of the front {hole.front_speed(pictures, chosen.length):.3g} m/s; solid in the hole "
                f"{100 * row['solid_concentration']:.3g} %, where it is densest {densest:.3g} % over {hole.BIN:g} m.")
+        behind = developed(pictures[-1])
+        if behind:
+            yield (f"{name}: in the bed from {ENTRY:g} m to half of the way to the front {100 * sum(behind) / len(behind):.3g} % of the volume are solid; a "
+                   "periodic section carries the injected flux at the concentration of figure 7.")
     if row["time"] < chosen.end * (1 - 1e-9):
         yield f"{name}: the run has not come to its end; it is at {row['time']:.3g} of {chosen.end:g} s."
     yield f"{name}: computed in {note['calls']} call(s) by {len(note['builds'])} build(s)."

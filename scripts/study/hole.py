@@ -88,6 +88,12 @@ def slope(points):
     return sum((x - x0) * (y - y0) for x, y in points) / spread if spread else math.nan
 
 
+def reached(rows, length):
+    """How much of the hole is worth a picture: a third more than the front has come to, but for what is left of the hole [m]."""
+    far = 4 / 3 * max((row["front"] for row in rows), default=length)
+    return length if far > 0.75 * length else BIN * math.ceil(far / BIN)
+
+
 def front_speed(rows, length):
     """[m/s] of the line through the places of the front, from FIRST_SHARE of the run on and until it comes to the outlet."""
     last = rows[-1]["time"] if rows else 0

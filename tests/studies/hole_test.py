@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is measured along the hole, on closed forms."""
+import argparse
 import math
 import pathlib
 import sys
@@ -49,11 +50,26 @@ class Along(unittest.TestCase):
         rows = [{"time": float(t), "front": max(5.0, 0.3 * t) if t < 3 else 0.1 + 0.3 * t} for t in range(11)]
         self.assertAlmostEqual(hole.front_speed(rows, 12), 0.3)
 
+    def test_a_picture_shows_as_much_as_the_front_has_reached(self):
+        self.assertAlmostEqual(hole.reached([{"front": 0.4}, {"front": 1.0}], 12), 1.4)
+        self.assertEqual(hole.reached([{"front": 9.5}], 12), 12)
+        self.assertEqual(hole.reached([], 12), 12)
+
 
 class Run(unittest.TestCase):
     def test_cells_of_the_paper(self):
         self.assertEqual(full_run.cells_of(12), "12 48 243")
         self.assertIn(f"nCellsInCoarsestLevel   {16 * 243};", full_run.solvers_of(12, "loose"))
+
+    def test_interval_is_the_one_chosen_or_that_of_the_rule(self):
+        chosen = argparse.Namespace(interval=None, fluid_step=0.02)
+        self.assertEqual(full_run.interval_of(chosen, 182e-6), math.ceil(0.02 / (0.3 * 182e-6)))
+        chosen.interval = 200
+        self.assertEqual(full_run.interval_of(chosen, 182e-6), 200)
+
+    def test_developed_bed_leaves_out_entry_and_front(self):
+        picture = {"front": 1.2, "along": [(z / 10 + 0.05, z, 0) for z in range(20)]}
+        self.assertEqual(full_report.developed(picture), [3, 4, 5])
 
     def test_balance(self):
         row = {"inserted_mass": 2.0, "inserted": 10, "mass": 1.4, "left": 3}
