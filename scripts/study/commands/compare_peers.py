@@ -4,8 +4,10 @@
 import json
 import math
 import os
+import pathlib
 import shutil
 import subprocess
+import tempfile
 
 from .. import levels, options, peer_bed, programs, runs, tables
 from ..programs import SCENES, Failure, digest_of, run
@@ -49,9 +51,10 @@ class Shape:
 
     def __init__(self, words, chosen):
         self.words = words
-        file = chosen.out / (words.replace(" ", "") + ".clump")
-        measured = levels.measured(chosen.build, words, "--diameter", DIAMETER, "-o", file)
-        self.spheres = [tuple(map(float, line.split())) for line in file.read_text().splitlines() if line.strip() and line[0] != "#"]
+        with tempfile.TemporaryDirectory() as folder:  # of this call alone: others may read the same shape
+            file = pathlib.Path(folder) / "body.clump"
+            measured = levels.measured(chosen.build, words, "--diameter", DIAMETER, "-o", file)
+            self.spheres = [tuple(map(float, line.split())) for line in file.read_text().splitlines() if line.strip() and line[0] != "#"]
         self.mass = DENSITY * measured["volume"]
         self.inertia = [self.mass * k for k in measured["inertia"]]
         # A disk lies on its face when its axis, about which its inertia is largest, points up.
