@@ -45,9 +45,10 @@ def mean_over(rows, name, share=0.2):
 
 
 def measures_of(case, step, length):
-    """What is compared between runs: hold-up [m3], speed of the front [m/s], pressure gradient [Pa/m], over the last fifth."""
+    """What is compared between runs: hold-up [m3], place of the front [m] (in some seconds it does not move), pressure
+    gradient [Pa/m], over the last fifth."""
     rows, pictures = section.rows_of(case), hole.history(case, step, length)
-    return {"hold-up": mean_over(rows, "solid_concentration"), "front": hole.front_speed(pictures, length), "gradient": mean_over(rows, "pressure_gradient")}
+    return {"hold-up": mean_over(rows, "solid_concentration"), "front": mean_over(pictures, "front"), "gradient": mean_over(rows, "pressure_gradient")}
 
 
 def developed(picture):

@@ -126,7 +126,7 @@ def accuracy_page(words, critical):
         if reference:
             failed += [f"{label}: {name} differs by more than {100 * LARGEST_CHANGE:g} %"
                        for name in ("hold-up", "front", "gradient") if not abs(m[name] / reference[name] - 1) <= LARGEST_CHANGE]
-    header = ["", "solid [%]", "change [%]", "front [m/s]", "change [%]", "pressure gradient [Pa/m]", "change [%]", "CPU [s]"]
+    header = ["", "solid [%]", "change [%]", "front [m]", "change [%]", "pressure gradient [Pa/m]", "change [%]", "CPU [s]"]
     title = f"Steps and tolerances, S1, {completed(words).length:g} m, {completed(words).end:g} s, last fifth:"
     return ["## Steps and tolerances\n", tables.publish(words, "accuracy", title, header, rows)], failed
 

@@ -73,8 +73,9 @@ def estimate_of(words, spheres):
 
 
 def case_digest(case=CASE):
-    """Of all that the case's files say, and of the program that runs them."""
-    files = sorted(file for file in case.rglob("*") if file.is_file() and not file.relative_to(case).parts[0].startswith("results"))
+    """Of all that the case's files say but to a reader, and of the program that runs them."""
+    says = lambda file: file.is_file() and file.suffix not in (".md", ".png") and not file.name.startswith(".")
+    files = sorted(file for file in case.rglob("*") if says(file) and not file.relative_to(case).parts[0].startswith("results"))
     return digest_of(programs.RUN_CASE, *files)
 
 
