@@ -78,8 +78,7 @@ def options_of(chosen, level, critical):
     return {"length": chosen.length, "cells": cells_of(chosen.length), "inclination": chosen.angle, "velocity": chosen.velocity,
             "entry": chosen.velocity, "rpm": chosen.rpm, "portions": PORTIONS, "fluid_step": chosen.fluid_step, "interval": interval,
             "seconds": chosen.end, "ranks": chosen.ranks, "bodies": 1, "snapshots": snapshots_of(chosen),
-            "report": 1 if chosen.accuracy else max(1, round(REPORT / chosen.fluid_step)),
-            **({"balance": interval} if chosen.ranks > 1 else {}), **section.level_words(level)}
+            "report": 1 if chosen.accuracy else max(1, round(REPORT / chosen.fluid_step)), **section.level_words(level)}
 
 
 def snapshots_of(chosen):
