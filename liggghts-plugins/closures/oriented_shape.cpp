@@ -3,9 +3,8 @@
 // Eigenframes of the resistance, modes of rotation, and the spheroids that turn alike.
 #include "closures/oriented_shape.h"
 
+#include "base/linear_algebra.h"
 #include "closures/rheology.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -47,9 +46,9 @@ OrientedShape oriented_shape(const shape::Resistance& resistance, const Vector3d
   if (is_diagonal(resistance.translation)) {
     s.drag = resistance.translation.diagonal();
   } else {
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(resistance.translation);
-    s.drag = solver.eigenvalues();
-    s.drag_axes = solver.eigenvectors().transpose();
+    const base::SymmetricModes modes = base::symmetric_modes(resistance.translation);
+    s.drag = modes.values;
+    s.drag_axes = modes.vectors.transpose();
     if (s.drag_axes.determinant() < 0.0)
       s.drag_axes.row(2) *= -1.0;
   }
@@ -71,10 +70,10 @@ OrientedShape oriented_shape(const shape::Resistance& resistance, const Vector3d
   } else {
     s.shared_modes = false;
     const Matrix3d scaled = root.cwiseInverse().asDiagonal() * s.rotation * root.cwiseInverse().asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(scaled);
-    s.rates = solver.eigenvalues();
-    s.modes = solver.eigenvectors().transpose() * root.asDiagonal();
-    s.modes_inverse = root.cwiseInverse().asDiagonal() * solver.eigenvectors();
+    const base::SymmetricModes modes = base::symmetric_modes(scaled);
+    s.rates = modes.values;
+    s.modes = modes.vectors.transpose() * root.asDiagonal();
+    s.modes_inverse = root.cwiseInverse().asDiagonal() * modes.vectors;
   }
 
   const Vector3d axes = axes_of_turning(resistance.bretherton());

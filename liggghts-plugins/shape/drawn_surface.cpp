@@ -3,6 +3,8 @@
 // Faces, strips along edges and patches about vertices; bodies of revolution by their profile.
 #include "shape/drawn_surface.h"
 
+#include "base/linear_algebra.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -100,7 +102,7 @@ class Builder {
 
   /// All that has been made turns so that z becomes `axis`.
   void turn_to(const Vector3d& axis) {
-    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis);
+    const Eigen::Quaterniond turn = base::rotation_between(Vector3d::UnitZ(), axis);
     for (SurfacePoint& p : surface.points) {
       p.position = turn * p.position;
       p.normal = turn * p.normal;

@@ -3,7 +3,8 @@
 // Principal axes in the order and with the signs that turn the given frame least.
 #include "shape/principal_frame.h"
 
-#include <Eigen/Eigenvalues>
+#include "base/linear_algebra.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -25,9 +26,7 @@ Eigen::Matrix3d principal_axes(const Eigen::Matrix3d& inertia) {
   const Eigen::Vector3d off(inertia(0, 1), inertia(0, 2), inertia(1, 2));
   if (off.cwiseAbs().maxCoeff() < equal_moments * scale)
     return Eigen::Matrix3d::Identity();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia);
-  const Eigen::Vector3d moment = solver.eigenvalues(); // ascending
-  const Eigen::Matrix3d vectors = solver.eigenvectors();
+  const auto [moment, vectors] = base::symmetric_modes(inertia);
   const bool low_equal = moment[1] - moment[0] < equal_moments * scale;
   const bool high_equal = moment[2] - moment[1] < equal_moments * scale;
   Eigen::Matrix3d axes;

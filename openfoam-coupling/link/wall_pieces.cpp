@@ -3,7 +3,9 @@
 // Fits planes and cylinders to faces.
 #include "link/wall_pieces.h"
 
-#include <Eigen/Dense>
+#include "base/linear_algebra.h"
+
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <array>
@@ -95,9 +97,9 @@ bool fit_plane(const std::vector<Facet>& facets, SurfacePiece& piece) {
   for (const int f : piece.facets)
     for (const Vector3d& x : facets[f].corners)
       spread += (x - mean) * (x - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(spread);
+  const base::SymmetricModes axes = base::symmetric_modes(spread);
   piece.point = mean;
-  piece.direction = axes.eigenvectors().col(0);
+  piece.direction = axes.vectors.col(0);
   for (const int f : piece.facets)
     for (const Vector3d& x : facets[f].corners)
       if (std::abs((x - mean).dot(piece.direction)) > kFlat * piece.extent)
@@ -132,13 +134,13 @@ bool fit_cylinder(const std::vector<Facet>& facets, SurfacePiece& piece) {
   }
   if (!(area > 0))
     return false;
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(normals / area);
-  if (axes.eigenvalues()[0] > kAlong || axes.eigenvalues()[1] < kAcross)
+  const base::SymmetricModes axes = base::symmetric_modes(normals / area);
+  if (axes.values[0] > kAlong || axes.values[1] < kAcross)
     return false;
-  Vector3d axis = axes.eigenvectors().col(0);
+  Vector3d axis = axes.vectors.col(0);
   if (axis.sum() < 0)
     axis = -axis;
-  const Vector3d u = axes.eigenvectors().col(1), v = axis.cross(u);
+  const Vector3d u = axes.vectors.col(1), v = axis.cross(u);
   std::vector<Eigen::Vector2d> corners;
   for (const int f : piece.facets)
     for (const Vector3d& x : facets[f].corners)

@@ -44,15 +44,38 @@ file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/generated/eccentra/version.h" @ONLY
 ]])
 
 # Headers of the hosts and of Eigen take a third of the time of a file that includes them. A compiler cache knows precompiled headers by their
-# bytes, which are of one build folder alone: with a cache each file reads the headers itself.
+# bytes, which are of one build folder alone: with a cache each file reads the headers itself, which shows where an include is missing.
 set(_precompile ON)
 if(CMAKE_CXX_COMPILER_LAUNCHER)
   set(_precompile OFF)
 endif()
-option(ECCENTRA_PRECOMPILE "Precompile the headers that many files of a library include" ${_precompile})
+option(ECCENTRA_PRECOMPILE "Precompile the headers that many files include" ${_precompile})
+# eccentra_precompile(target header...): the headers of one target.
 function(eccentra_precompile target)
   if(ECCENTRA_PRECOMPILE)
     target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
+endfunction()
+# eccentra_precompiled_headers(name LIBRARIES l... HEADERS h... [OPTIONS o...]): headers that several targets take by eccentra_use_precompiled. All
+# of them must be compiled with the same flags; the compiler passes over precompiled headers of other flags, and says so.
+function(eccentra_precompiled_headers name)
+  cmake_parse_arguments(A "" "" "LIBRARIES;HEADERS;OPTIONS" ${ARGN})
+  if(ECCENTRA_PRECOMPILE)
+    file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/generated/${name}.cpp" CONTENT "")
+    add_library(${name} OBJECT "${PROJECT_BINARY_DIR}/generated/${name}.cpp")
+    target_link_libraries(${name} PRIVATE ${A_LIBRARIES})
+    target_precompile_headers(${name} PRIVATE ${A_HEADERS})
+    if(A_OPTIONS) # of programs, where CMAKE_POSITION_INDEPENDENT_CODE means another flag than in libraries
+      target_compile_options(${name} PRIVATE ${A_OPTIONS})
+      set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    endif()
+  endif()
+endfunction()
+function(eccentra_use_precompiled name)
+  if(ECCENTRA_PRECOMPILE)
+    foreach(_target IN LISTS ARGN)
+      target_precompile_headers(${_target} REUSE_FROM ${name})
+    endforeach()
   endif()
 endfunction()
 set(ECCENTRA_FOAM_PRECOMPILED <mpi.h> <algorithm> <cmath> <memory> <string> <vector> <fvMesh.H> <volFields.H> <surfaceFields.H> <Time.H>)

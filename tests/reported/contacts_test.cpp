@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts that once held what should have fallen.
+#include "base/linear_algebra.h"
 #include "reported/throwing_session.h"
 #include "support/groove_scene.h"
 #include "support/row_properties.h"
@@ -34,7 +35,7 @@ void make_row(Session& session, int tag, int count, double radius) {
   const shape::ClusterShape shape = row(count, radius);
   const Eigen::Vector3d along =
       count > 1 ? Eigen::Vector3d(shape.spheres()[1].centre - shape.spheres()[0].centre) : Eigen::Vector3d::UnitX();
-  const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(along, Eigen::Vector3d::UnitX());
+  const Eigen::Quaterniond q = eccentra::base::rotation_between(along, Eigen::Vector3d::UnitX());
   const double wxyz[] = {q.w(), q.x(), q.y(), q.z()};
   session.bodies().make_body(session.lammps().atom->map(tag), session.bodies().shapes().add(shape), kDensity, wxyz);
 }

@@ -5,10 +5,10 @@
 
 #include "contact/contact_core.h"
 #include "contact/contact_models.h"
+#include "contact/contact_stiffness.h"
 #include "contact/manifold.h"
 #include "contact/shared_contacts.h"
 #include "contact/surface_spheres.h"
-#include "contact/timestep_limit_formula.h"
 #include "contact/wall_contact.h"
 #include "contact/wall_history.h"
 #include "styles/bodies/contact_materials.h"

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clusters in a prescribed flow: volume and sphericity of the union, drag by orientation, torque on the body.
+#include "base/linear_algebra.h"
 #include "closures/projected_area.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 
@@ -108,7 +109,7 @@ TEST(Clusters, ADiskSettlesFasterEdgewise) {
       if (projected_area(shape.spheres(), Vector3d::Unit(k)) > projected_area(shape.spheres(), Vector3d::Unit(axis)))
         axis = k;
     const Vector3d down = Vector3d::Unit(edgewise ? (axis + 1) % 3 : axis);
-    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(down, Vector3d::UnitZ());
+    const Eigen::Quaterniond turn = eccentra::base::rotation_between(down, Vector3d::UnitZ());
     const double q[4] = {turn.w(), turn.x(), turn.y(), turn.z()};
     const int i = session.local(1);
     if (i >= 0)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cohesion, liquid bridges and dampers of every model for bodies of several sub-spheres: N contacts at once do to a
 // body of N spheres what one does to a sphere, and bridges to bodies that turn add up.
+#include "base/linear_algebra.h"
 #include "styles/pairs/all_materials.h"
 #include "support/row_properties.h"
 
@@ -36,8 +37,8 @@ shape::ClusterShape row(int count, double radius) {
 void add_row(LiggghtsSession& session, int count, double radius, Start start) {
   const shape::ClusterShape shape = row(count, radius);
   if (count > 1)
-    start.orientation = Eigen::Quaterniond::FromTwoVectors(shape.spheres()[1].centre - shape.spheres()[0].centre,
-                                                           Eigen::Vector3d::UnitY());
+    start.orientation = eccentra::base::rotation_between(shape.spheres()[1].centre - shape.spheres()[0].centre,
+                                                         Eigen::Vector3d::UnitY());
   add_body(session, shape, start);
 }
 

@@ -3,6 +3,7 @@
 // Duration and peak force of flat drops: contacts shared, contacts parallel and stock fix multisphere against the
 // closed form of N Hertz contacts side by side. Sharing scales damping alone, so elastic impacts are the same in all
 // three.
+#include "base/linear_algebra.h"
 #include "styles/bodies/bodies_scene.h"
 
 #include "fix_multisphere.h"
@@ -35,7 +36,7 @@ Eigen::Quaterniond face_down(const shape::ClusterShape& shape) {
   int axis = 0;
   const double largest = shape.inertia_per_mass().maxCoeff(&axis), smallest = shape.inertia_per_mass().minCoeff();
   return largest > 1.5 * smallest
-             ? Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::Unit(axis), Eigen::Vector3d::UnitZ())
+             ? eccentra::base::rotation_between(Eigen::Vector3d::Unit(axis), Eigen::Vector3d::UnitZ())
              : Eigen::Quaterniond::Identity();
 }
 

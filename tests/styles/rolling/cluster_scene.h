@@ -3,6 +3,7 @@
 // Scenes of clusters that roll: rows of equal spheres on an axle, which roll as one sphere does, however many they are.
 #pragma once
 
+#include "base/linear_algebra.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/rolling/rolling_scene.h"
 
@@ -108,8 +109,8 @@ inline int add_roller(LiggghtsSession& session, int count, const Eigen::Vector3d
   const shape::ClusterShape shape = roller(count);
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
   if (count > 1)
-    q = Eigen::Quaterniond::FromTwoVectors(shape.spheres()[1].centre - shape.spheres()[0].centre,
-                                           Eigen::Vector3d::UnitY());
+    q = eccentra::base::rotation_between(shape.spheres()[1].centre - shape.spheres()[0].centre,
+                                         Eigen::Vector3d::UnitY());
   return add_cluster(session, shape, x, q);
 }
 

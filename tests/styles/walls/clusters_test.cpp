@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clusters dropped on walls: the restitution asked for at every level of detail, and rigid-body closed forms off
 // centre.
+#include "base/linear_algebra.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/walls/wall_scene.h"
 #include "support/stl_file.h"
@@ -109,7 +110,7 @@ Rebound drop(const Drop& d) {
 }
 
 Eigen::Quaterniond turn(const Eigen::Vector3d& from_body, const Eigen::Vector3d& to_world) {
-  return Eigen::Quaterniond::FromTwoVectors(from_body, to_world);
+  return eccentra::base::rotation_between(from_body, to_world);
 }
 
 /// Axis of a disk: the one with the largest moment of inertia.
