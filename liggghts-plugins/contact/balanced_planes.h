@@ -45,4 +45,13 @@ inline std::vector<double> balanced_planes(const std::vector<double>& planes, co
   return next;
 }
 
+/// Planes as near to `goal` as half of the way to their neighbours lets them come in one go, so that no body changes by
+/// more than one slab. Both with as many planes, from 0 to 1.
+inline std::vector<double> planes_towards(const std::vector<double>& planes, const std::vector<double>& goal) {
+  std::vector<double> next = planes;
+  for (std::size_t p = 1; p + 1 < planes.size(); ++p)
+    next[p] = std::clamp(goal[p], 0.5 * (planes[p - 1] + planes[p]), 0.5 * (planes[p] + planes[p + 1]));
+  return next;
+}
+
 } // namespace eccentra::contact

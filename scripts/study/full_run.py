@@ -16,6 +16,7 @@ ACROSS, AROUND = 12, 48
 FLUID_STEP = 20e-3
 PORTIONS = 20e-3  # time between two insertions [s]: rarer ones push the fluid out in jerks
 REPORT = 0.1  # [s] between two rows of a long run; where steps are compared each step has a row, or all rows would be those after an insertion
+BALANCE = 200  # DEM steps between two looks at the load of the ranks: bodies are at one end of the hole
 MOST_PICTURES = 60  # of a run: they bound what it takes on the disk
 TELL = 60  # seconds from one line of progress to the next
 NOTE = "note.json"  # beside the case: the builds that computed it and the CPU time that they took
@@ -77,7 +78,7 @@ def options_of(chosen, level, critical):
     interval = interval_of(chosen, critical)
     return {"length": chosen.length, "cells": cells_of(chosen.length), "inclination": chosen.angle, "velocity": chosen.velocity,
             "entry": chosen.velocity, "rpm": chosen.rpm, "portions": PORTIONS, "fluid_step": chosen.fluid_step, "interval": interval,
-            "seconds": chosen.end, "ranks": chosen.ranks, "bodies": 1, "snapshots": snapshots_of(chosen),
+            "seconds": chosen.end, "ranks": chosen.ranks, "balance": BALANCE if chosen.ranks > 1 else 0, "bodies": 1, "snapshots": snapshots_of(chosen),
             "report": 1 if chosen.accuracy else max(1, round(REPORT / chosen.fluid_step)), **section.level_words(level)}
 
 

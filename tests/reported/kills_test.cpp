@@ -126,7 +126,7 @@ TEST(Reported, twenty_kills_on_the_shipped_cases) {
   interrupt_case("section", "tomren-section", {});
   interrupt_case("section_socket", "tomren-section", {"--link", "socket", "--shape", "cube 8"});
   interrupt_case("injection", "tomren-injection", {});
-  interrupt_case("injection_ranks", "tomren-injection", {"--ranks", "2"});
+  interrupt_case("injection_ranks", "tomren-injection", {"--ranks", "2", "--balance", "64"});
   // DEM alone.
   if (left_out("heap"))
     return;

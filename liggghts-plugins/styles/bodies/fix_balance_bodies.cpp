@@ -17,7 +17,10 @@
 #include "update.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -33,7 +36,7 @@ constexpr int bins = 2000;
 
 /// Fix style "balance/bodies": fix ID all balance/bodies every N [threshold T]. Stock LIGGGHTS keeps sub-domains of
 /// equal size, but its communication works with any planes (Comm::uniform 0). Scalar: bodies of the fullest rank over
-/// the mean.
+/// the mean. A restart file contains the planes: a run goes on with them on the same grid of ranks.
 class FixBalanceBodies : public Fix {
  public:
   FixBalanceBodies(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {
@@ -57,6 +60,7 @@ class FixBalanceBodies : public Fix {
       fail("works in orthogonal boxes only");
     scalar_flag = 1;
     global_freq = 1;
+    restart_global = 1;
     force_reneighbor = 1;
     box_change_domain = 1;
     next_reneighbor = -1;
@@ -72,12 +76,53 @@ class FixBalanceBodies : public Fix {
     next_reneighbor = (update->ntimestep / every_ + 1) * every_;
     if (comm->nprocs == 1 || compute_scalar() <= threshold_)
       return;
-    double* splits[3] = {comm->xsplit, comm->ysplit, comm->zsplit};
+    Planes next = planes();
     for (int k = 0; k < 3; ++k)
       if (comm->procgrid[k] > 1)
-        move_planes(k, splits[k]);
-    comm->uniform = 0;
-    domain->set_local_box();
+        next[k] = balanced(k, next[k]);
+    set(next);
+  }
+
+  /// Bodies of a restart file are with the ranks of equal parts. They go to those of its planes here, where no rank has
+  /// made a list of neighbours or a record of a contact yet.
+  void setup_pre_exchange() override {
+    if (restarted_[0].empty())
+      return;
+    domain->pbc();
+    for (Planes now = planes(); now != restarted_; now = planes()) {
+      for (int k = 0; k < 3; ++k)
+        now[k] = contact::planes_towards(now[k], restarted_[k]);
+      set(now);
+      comm->exchange();
+    }
+    restarted_ = {};
+  }
+
+  void write_restart(FILE* file) override {
+    if (comm->me != 0)
+      return;
+    std::vector<double> state;
+    for (const std::vector<double>& of_direction : planes()) {
+      state.push_back(static_cast<double>(of_direction.size()));
+      state.insert(state.end(), of_direction.begin(), of_direction.end());
+    }
+    const int bytes = static_cast<int>(state.size() * sizeof(double));
+    std::fwrite(&bytes, sizeof(int), 1, file);
+    std::fwrite(state.data(), sizeof(double), state.size(), file);
+  }
+
+  void restart(char* buffer) override {
+    Planes read;
+    for (int k = 0; k < 3; ++k) {
+      double count = 0;
+      std::memcpy(&count, buffer, sizeof count);
+      read[k].resize(static_cast<std::size_t>(count));
+      std::memcpy(read[k].data(), buffer + sizeof count, read[k].size() * sizeof count);
+      buffer += (1 + read[k].size()) * sizeof count;
+      if (static_cast<int>(read[k].size()) != comm->procgrid[k] + 1)
+        return; // another grid of ranks begins with equal parts
+    }
+    restarted_ = read;
   }
 
   double compute_scalar() override {
@@ -89,12 +134,31 @@ class FixBalanceBodies : public Fix {
   }
 
  private:
+  /// Of each direction, as parts of the box, from 0 to 1.
+  using Planes = std::array<std::vector<double>, 3>;
+
+  Planes planes() const {
+    Planes now;
+    const double* const splits[3] = {comm->xsplit, comm->ysplit, comm->zsplit};
+    for (int k = 0; k < 3; ++k)
+      now[k].assign(splits[k], splits[k] + comm->procgrid[k] + 1);
+    return now;
+  }
+
+  void set(const Planes& next) {
+    double* const splits[3] = {comm->xsplit, comm->ysplit, comm->zsplit};
+    for (int k = 0; k < 3; ++k)
+      std::copy(next[k].begin(), next[k].end(), splits[k]);
+    comm->uniform = 0;
+    domain->set_local_box();
+  }
+
   [[noreturn]] void fail(const std::string& sentence) {
     error->all(FLERR, ("fix " + std::string(id) + " balance/bodies: " + sentence).c_str());
     std::abort(); // not reached: error->all ends the run
   }
 
-  void move_planes(int k, double* split) {
+  std::vector<double> balanced(int k, const std::vector<double>& planes) const {
     std::vector<double> counts(bins, 0.);
     for (int i = 0; i < atom->nlocal; ++i) {
       const double part = (atom->x[i][k] - domain->boxlo[k]) / domain->prd[k];
@@ -103,13 +167,12 @@ class FixBalanceBodies : public Fix {
     MPI_Allreduce(MPI_IN_PLACE, counts.data(), bins, MPI_DOUBLE, MPI_SUM, world);
     // Narrower slabs would take their ghosts from ranks farther away.
     const double narrowest = std::max(comm->cutghost[k], neighbor->cutneighmax) / domain->prd[k];
-    const std::vector<double> planes(split, split + comm->procgrid[k] + 1);
-    const std::vector<double> next = contact::balanced_planes(planes, counts, narrowest);
-    std::copy(next.begin(), next.end(), split);
+    return contact::balanced_planes(planes, counts, narrowest);
   }
 
   int every_ = 0;
   double threshold_ = 1.1;
+  Planes restarted_; ///< of the restart file, until they are in use
 };
 
 namespace {

@@ -4,6 +4,7 @@
 #include "contact/balanced_planes.h"
 
 #include "styles/bodies/bodies_scene.h"
+#include "styles/bodies/body_rows.h"
 #include "support/stl_file.h"
 
 #include "comm.h"
@@ -38,6 +39,22 @@ TEST(BalancedPlanes, MoveHalfwayAtMostAndReachEqualShares) {
   EXPECT_EQ(contact::balanced_planes(planes, std::vector<double>(1000, 0.), 0.1), planes);
 }
 
+TEST(BalancedPlanes, ReachAnotherPlaceInStepsOfHalfTheWay) {
+  const std::vector<double> goal = {0, 0.01, 0.02, 0.9, 1};
+  std::vector<double> planes = {0, 0.25, 0.5, 0.75, 1};
+  int rounds = 0;
+  for (; planes != goal && rounds < 20; ++rounds) {
+    const auto next = contact::planes_towards(planes, goal);
+    for (int p = 1; p < 4; ++p) {
+      EXPECT_GE(next[p], planes[p - 1]);
+      EXPECT_LE(next[p], planes[p + 1]);
+    }
+    planes = next;
+  }
+  EXPECT_EQ(planes, goal);
+  EXPECT_GT(rounds, 1);
+}
+
 namespace {
 
 constexpr int along = 16, across = 3;
@@ -59,9 +76,23 @@ void fill(LiggghtsSession& session) {
     }
 }
 
+const std::string world =
+    "fix gravity all gravity 9.81 vector 0.5 0 -1\n"
+    "fix floor all wall/gran/cluster model hertz tangential history primitive type 1 zplane -0.1\n"
+    "fix ramp_mesh all mesh/surface file balance_ramp.stl type 1\n"
+    "fix ramp all wall/gran/cluster model hertz tangential history mesh n_meshes 1 meshes "
+    "ramp_mesh\n";
+const std::string balance = "fix balance all balance/bodies every 200 threshold 1.05\n";
+
+std::vector<double> planes_of(LiggghtsSession& session) {
+  const LAMMPS_NS::Comm& comm = *session.lammps().comm;
+  return {comm.xsplit, comm.xsplit + comm.procgrid[0] + 1};
+}
+
 struct Outcome {
-  std::vector<std::array<double, 7>> bodies;
+  std::vector<BodyRow> bodies;
   double imbalance, first_imbalance;
+  std::vector<double> planes_before; ///< after 3000 steps, when the restart file is written
 };
 
 Outcome run(MPI_Comm ranks, bool balanced) {
@@ -70,29 +101,21 @@ Outcome run(MPI_Comm ranks, bool balanced) {
   open_box(session, {});
   use_clusters(session);
   fill(session);
-  session.script("fix gravity all gravity 9.81 vector 0.5 0 -1\n"
-                 "fix floor all wall/gran/cluster model hertz tangential history primitive type 1 zplane -0.1\n"
-                 "fix ramp_mesh all mesh/surface file balance_ramp.stl type 1\n"
-                 "fix ramp all wall/gran/cluster model hertz tangential history mesh n_meshes 1 meshes ramp_mesh\n");
+  session.script(world);
   if (balanced)
-    session.script("fix balance all balance/bodies every 200 threshold 1.05\n");
+    session.script(balance);
   session.script("timestep 1e-5\nrun 0\n");
   LAMMPS_NS::Fix* fix = balanced ? session.lammps().modify->find_fix_id("balance") : nullptr;
   Outcome outcome;
   outcome.first_imbalance = fix ? fix->compute_scalar() : 1;
-  session.script("run 6000\n");
+  session.script("run 3000\n");
+  if (balanced)
+    session.script("write_restart balance.restart\n");
+  outcome.planes_before = planes_of(session);
+  session.script("run 3000\n");
   outcome.imbalance = fix ? fix->compute_scalar() : 1;
-  const int count = along * across;
-  EXPECT_EQ(session.atom().natoms, count);
-  outcome.bodies.assign(count, {});
-  for (int tag = 1; tag <= count; ++tag) {
-    const int i = session.local(tag);
-    if (i < 0)
-      continue;
-    double* next = std::copy_n(session.atom().x[i], 3, outcome.bodies[tag - 1].data());
-    std::copy_n(styles::FixClusterBodies::require(&session.lammps()).quaternion(i), 4, next);
-  }
-  MPI_Allreduce(MPI_IN_PLACE, outcome.bodies[0].data(), 7 * count, MPI_DOUBLE, MPI_SUM, ranks);
+  EXPECT_EQ(session.atom().natoms, along * across);
+  outcome.bodies = body_rows(session, along * across, ranks);
   return outcome;
 }
 
@@ -109,4 +132,16 @@ TEST(Balance, RanksShareTheBodiesAndNoDigitChanges) {
     EXPECT_GT(together.first_imbalance, 1.3) << "the scene starts unbalanced";
     EXPECT_LT(together.imbalance, 1.3);
   }
+  // A restarted run begins with the planes of the file, wherever a body was read.
+  LiggghtsSession session;
+  session.script("processors * 1 1\natom_style granular\natom_modify map array\nboundary f f f\nnewton off\n"
+                 "communicate single vel yes\nunits si\nread_restart balance.restart\n" +
+                 granular_material());
+  use_clusters(session);
+  session.script(world + balance + "timestep 1e-5\nrun 0\n");
+  EXPECT_EQ(planes_of(session), together.planes_before);
+  if (ranks > 1)
+    EXPECT_NE(together.planes_before[1], 1. / ranks);
+  session.script("run 3000\n");
+  EXPECT_EQ(body_rows(session, along * across, MPI_COMM_WORLD), alone.bodies);
 }
