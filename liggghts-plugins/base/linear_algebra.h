@@ -7,10 +7,10 @@
 
 namespace eccentra::base {
 
-/// Eigenvalues in ascending order, and the unit eigenvectors as columns.
+/// What symmetric_modes returns.
 struct SymmetricModes {
-  Eigen::Vector3d values;
-  Eigen::Matrix3d vectors;
+  Eigen::Vector3d values;  ///< in ascending order
+  Eigen::Matrix3d vectors; ///< of length 1, as columns
 };
 
 /// Of a symmetric matrix, whose lower triangle is read.

@@ -41,16 +41,16 @@ foreach(_kind surface normal tangential cohesion rolling)
 endforeach()
 file(CONFIGURE OUTPUT "${_generated}/style_contact_model.h" CONTENT "" @ONLY)
 
-# A LIGGGHTS that was built from source has such lists beside contact_models.h, which would find those first: its headers without them.
+# A LIGGGHTS that was built from source has such lists beside contact_models.h, which would find those first: copies of its headers without them. (The
+# compiler would follow links of system headers to the folder that they point to.)
 set(_headers "${LIGGGHTS_INCLUDE_DIR}")
 if(ECCENTRA_LIGGGHTS_DIR)
   set(_headers "${PROJECT_BINARY_DIR}/generated/liggghts-headers")
-  file(REMOVE_RECURSE "${_headers}")
   file(MAKE_DIRECTORY "${_headers}")
   file(GLOB _names RELATIVE "${LIGGGHTS_INCLUDE_DIR}" "${LIGGGHTS_INCLUDE_DIR}/*.h")
   list(FILTER _names EXCLUDE REGEX "^style_[a-z]+_model\\.h$")
   foreach(_name IN LISTS _names)
-    file(CREATE_LINK "${LIGGGHTS_INCLUDE_DIR}/${_name}" "${_headers}/${_name}" SYMBOLIC)
+    configure_file("${LIGGGHTS_INCLUDE_DIR}/${_name}" "${_headers}/${_name}" COPYONLY)
   endforeach()
 endif()
 
