@@ -176,11 +176,10 @@ Vector3d from_axis(const Vector3d& point, const CylinderWall& wall) {
   return r - r.dot(wall.direction) * wall.direction;
 }
 
-} // namespace
-
-void plane_contacts(const ContactBody& body, const Vector3d& normal, double height, std::vector<Contact>& contacts) {
-  const auto distance = [&](const Vector3d& p) { return shape::CoreDistance{height + normal.dot(p), normal}; };
-  WallContacts<decltype(distance)> wall(body, distance, contacts);
+/// A wall that no edge of a body touches between its ends: a plane, or a cylinder from inside.
+template <class Distance>
+void flat_or_hollow(const ContactBody& body, const Distance& distance, std::vector<Contact>& contacts) {
+  WallContacts<const Distance> wall(body, distance, contacts);
   if (!body.posed->core->is_disk()) {
     wall.take_points_alone();
     return;
@@ -190,6 +189,13 @@ void plane_contacts(const ContactBody& body, const Vector3d& normal, double heig
   wall.finish();
 }
 
+} // namespace
+
+void plane_contacts(const ContactBody& body, const Vector3d& normal, double height, std::vector<Contact>& contacts) {
+  const auto distance = [&](const Vector3d& p) { return shape::CoreDistance{height + normal.dot(p), normal}; };
+  flat_or_hollow(body, distance, contacts);
+}
+
 void hole_contacts(const ContactBody& body, const CylinderWall& cylinder, std::vector<Contact>& contacts) {
   const auto distance = [&](const Vector3d& p) {
     const Vector3d radial = from_axis(p, cylinder);
@@ -197,14 +203,7 @@ void hole_contacts(const ContactBody& body, const CylinderWall& cylinder, std::v
     return shape::CoreDistance{cylinder.radius - rho,
                                rho > 0 ? Vector3d(-radial / rho) : Vector3d(cylinder.direction.unitOrthogonal())};
   };
-  WallContacts<decltype(distance)> wall(body, distance, contacts);
-  if (!body.posed->core->is_disk()) {
-    wall.take_points_alone();
-    return;
-  }
-  wall.take_points();
-  wall.take_arcs();
-  wall.finish();
+  flat_or_hollow(body, distance, contacts);
 }
 
 void pipe_contacts(const ContactBody& body, const CylinderWall& cylinder, std::vector<Contact>& contacts) {

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace {
 using namespace small_dem;
 
@@ -57,8 +59,10 @@ TEST(SmoothMotion, RestsOnAPlane) {
   const Species cube(made("smooth cube rounding .15", diameter)),
       disk(made("smooth disk aspect .31 rounding .5", diameter)),
       round(made("smooth disk aspect .31 rounding 1", diameter));
+  constexpr int tilts = eccentra::test::repetitions(3, 1);
   for (const Species* s : {&cube, &disk, &round})
-    for (const double tilt : {0.05, 0.4, s->core.is_disk() ? 0.9 : 1.3}) {
+    for (int n = 0; n < tilts; ++n) {
+      const double tilt = std::array{0.4, 0.05, s->core.is_disk() ? 0.9 : 1.3}[n];
       SmallDem dem(Material{});
       dem.gravity = 9.81;
       dem.planes.push_back({Vector3d::UnitZ(), 0});
@@ -112,6 +116,11 @@ TEST(SmoothMotion, TowersStand) {
   const Species cube(made("smooth cube rounding .15", diameter)),
       disk(made("smooth disk aspect .31 rounding .5", diameter));
   const double half = cube.core.half.z() + cube.core.radius, thick = disk.core.half.z() + disk.core.radius;
+  const auto disks = tower(disk, thick, 0.1, 0.2, false, 4e-5);
+  EXPECT_LT(disks.first, 0.05);
+  EXPECT_GT(disks.second, 0.97);
+  if (eccentra::test::repetitions(4, 1) == 1)
+    return;
   const auto square = tower(cube, half, 0, 0, false, 5e-5);
   EXPECT_LT(square.first, 1e-5);
   EXPECT_GT(square.second, 0.97);
@@ -121,9 +130,6 @@ TEST(SmoothMotion, TowersStand) {
   const auto offset = tower(cube, half, 0.1, 0.2, false, 5e-5);
   EXPECT_LT(offset.first, 0.05);
   EXPECT_GT(offset.second, 0.97);
-  const auto disks = tower(disk, thick, 0.1, 0.2, false, 4e-5);
-  EXPECT_LT(disks.first, 0.05);
-  EXPECT_GT(disks.second, 0.97);
   std::printf("towers, drift in 1 s over the edge: square %.1e, crossed %.1e, offset %.1e, disks %.1e\n", square.first,
               crossed.first, offset.first, disks.first);
 }

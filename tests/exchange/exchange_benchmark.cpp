@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Seconds per exchange of 30,000 particles: finding cells, deposition and sampling, with and without diffusion.
 #include "exchange/particleExchange.H"
-
-#include "Time.H"
-#include "argList.H"
+#include "exchange/shared_mesh.h"
 
 #include <benchmark/benchmark.h>
 
@@ -16,11 +14,10 @@ namespace {
 
 using namespace eccentra;
 using namespace eccentra::exchange;
+using test::sharedMesh;
 
 constexpr int kParticles = 30000;
 constexpr double kHole = 0.0635, kPipe = 0.02413, kOffset = 0.019685, kLength = 0.1, kDiameter = 1e-3;
-
-Foam::fvMesh* sharedMesh = nullptr;
 
 std::vector<std::array<double, 3>> scatter() {
   std::mt19937 random(5);
@@ -101,17 +98,7 @@ void exchangeOf(benchmark::State& state, VoidFraction method) {
 
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
-  std::vector<std::string> words = {argv[0], "-case", ECCENTRA_TEST_MESH};
-  std::vector<char*> arguments;
-  for (std::string& word : words)
-    arguments.push_back(word.data());
-  int count = static_cast<int>(arguments.size());
-  char** values = arguments.data();
-  Foam::argList::noBanner();
-  auto* args = new Foam::argList(count, values);
-  auto* time = new Foam::Time(Foam::Time::controlDictName, *args);
-  sharedMesh =
-      new Foam::fvMesh(Foam::IOobject(Foam::fvMesh::defaultRegion, time->timeName(), *time, Foam::IOobject::MUST_READ));
+  test::openSharedMesh(argv[0]);
   benchmark::Initialize(&argc, argv);
   benchmark::RegisterBenchmark("link solver", travel)->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("exchange/centre", exchangeOf, VoidFraction::centre)->Unit(benchmark::kMillisecond);

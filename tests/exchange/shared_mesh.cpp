@@ -5,7 +5,6 @@
 #include "Time.H"
 #include "argList.H"
 
-#include <gtest/gtest.h>
 #include <mpi.h>
 
 #include <string>
@@ -15,14 +14,10 @@ namespace eccentra::test {
 
 Foam::fvMesh* sharedMesh = nullptr;
 
-} // namespace eccentra::test
-
-int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
-  ::testing::InitGoogleTest(&argc, argv);
+void openSharedMesh(const char* program) {
   int size = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &size);
-  std::vector<std::string> words = {argv[0], "-case", ECCENTRA_TEST_MESH};
+  std::vector<std::string> words = {program, "-case", ECCENTRA_TEST_MESH};
   if (size > 1)
     words.push_back("-parallel");
   std::vector<char*> arguments;
@@ -34,10 +29,8 @@ int main(int argc, char** argv) {
   Foam::argList::noBanner();
   auto* args = new Foam::argList(count, values);
   auto* time = new Foam::Time(Foam::Time::controlDictName, *args);
-  eccentra::test::sharedMesh =
+  sharedMesh =
       new Foam::fvMesh(Foam::IOobject(Foam::fvMesh::defaultRegion, time->timeName(), *time, Foam::IOobject::MUST_READ));
-  int failed = RUN_ALL_TESTS();
-  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
-  MPI_Finalize();
-  return failed;
 }
+
+} // namespace eccentra::test

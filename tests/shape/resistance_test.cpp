@@ -210,7 +210,10 @@ TEST(ResistanceCache, ServesAllSizesAndRefusesWhatWasChanged) {
   changed[text.find("1.23")] = '7';
   std::string other = text;
   other.replace(other.find("version 1"), 9, "version 0");
+  int done = 0;
   for (const std::string& bad : {text.substr(0, text.size() / 2), changed, other, std::string()}) {
+    if (done++ == eccentra::test::repetitions(4, 1))
+      break;
     std::ofstream(files[0], std::ios::binary) << bad;
     expect_same(cached_resistance(shape_of({"disk", "19"}, 2.0)));
     EXPECT_EQ(file_text(files[0]), text);
