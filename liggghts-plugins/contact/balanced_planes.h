@@ -45,6 +45,15 @@ inline std::vector<double> balanced_planes(const std::vector<double>& planes, co
   return next;
 }
 
+/// True if each slab is at least `narrowest` wide, to round-off, or as wide as equal parts would be.
+inline bool as_wide_as(const std::vector<double>& planes, double narrowest) {
+  const double least = std::min(narrowest, 1. / static_cast<double>(planes.size() - 1)) * (1 - 1e-9);
+  for (std::size_t p = 1; p < planes.size(); ++p)
+    if (!(planes[p] - planes[p - 1] >= least))
+      return false;
+  return true;
+}
+
 /// Planes as near to `goal` as half of the way to their neighbours lets them come in one go, so that no body changes by
 /// more than one slab. Both with as many planes, from 0 to 1.
 inline std::vector<double> planes_towards(const std::vector<double>& planes, const std::vector<double>& goal) {

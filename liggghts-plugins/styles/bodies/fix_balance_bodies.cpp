@@ -84,10 +84,16 @@ class FixBalanceBodies : public Fix {
   }
 
   /// Bodies of a restart file are with the ranks of equal parts. They go to those of its planes here, where no rank has
-  /// made a list of neighbours or a record of a contact yet.
+  /// made a list of neighbours or a record of a contact yet. A run with a longer reach than that of the file, for which
+  /// its slabs are too narrow, begins with equal parts.
   void setup_pre_exchange() override {
     if (restarted_[0].empty())
       return;
+    for (int k = 0; k < 3; ++k)
+      if (!contact::as_wide_as(restarted_[k], neighbor->cutneighmax / domain->prd[k])) {
+        restarted_ = {};
+        return;
+      }
     domain->pbc();
     for (Planes now = planes(); now != restarted_; now = planes()) {
       for (int k = 0; k < 3; ++k)

@@ -53,6 +53,9 @@ TEST(BalancedPlanes, ReachAnotherPlaceInStepsOfHalfTheWay) {
   }
   EXPECT_EQ(planes, goal);
   EXPECT_GT(rounds, 1);
+  EXPECT_TRUE(contact::as_wide_as(goal, 0.01));
+  EXPECT_FALSE(contact::as_wide_as(goal, 0.02));
+  EXPECT_TRUE(contact::as_wide_as({0, 0.25, 0.5, 0.75, 1}, 0.4)) << "equal parts are not narrowed";
 }
 
 namespace {
@@ -140,8 +143,9 @@ TEST(Balance, RanksShareTheBodiesAndNoDigitChanges) {
   use_clusters(session);
   session.script(world + balance + "timestep 1e-5\nrun 0\n");
   EXPECT_EQ(planes_of(session), together.planes_before);
-  if (ranks > 1)
+  if (ranks > 1) {
     EXPECT_NE(together.planes_before[1], 1. / ranks);
+  }
   session.script("run 3000\n");
   EXPECT_EQ(body_rows(session, along * across, MPI_COMM_WORLD), alone.bodies);
 }
