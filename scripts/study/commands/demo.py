@@ -27,7 +27,7 @@ def scene_job(build, name, quick):
     """A scene; it stays in the folder of its run."""
     words, estimate = SCENES[name]
     if quick:
-        words = {**words, "seconds": 0.05, "count": 50, "run-in": 2}
+        words = {**words, "seconds": 0.05, "snapshots": 0.05, "count": 50, "run-in": 2}
 
     def work(folder):
         case, cpu, wall = section.run_case(build, folder, words, name)
