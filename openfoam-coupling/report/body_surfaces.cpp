@@ -76,11 +76,15 @@ std::vector<Body> bodies_of(vtkPolyData& file) {
   return bodies;
 }
 
-/// A surface about the place of a body's first sphere, unturned.
+} // namespace
+
+/// A surface about the place of a body's first sphere, unturned. Named, since a class that other files know holds it.
 struct Pattern {
-  std::vector<Vector3d> points, normals;
+  std::vector<Eigen::Vector3d> points, normals;
   std::vector<std::array<vtkIdType, 3>> triangles;
 };
+
+namespace {
 
 Pattern pattern_of(const std::vector<shape::Sphere>& spheres, int fineness) {
   Pattern pattern;

@@ -209,8 +209,9 @@ TEST(SmoothManifold, RimsOnSolids) {
           EXPECT_NEAR(of_lane.distance, end == 0 ? from.distance : to.distance, 1e-14);
           EXPECT_NEAR(of_lane.slope, at.slope, 1e-12);
           EXPECT_LT((lanes.vector(RimLanes::nx, end) - at.point.at.normal).norm(), 1e-12);
-          if (!std::isnan(at.rate))
+          if (!std::isnan(at.rate)) {
             EXPECT_NEAR(of_lane.rate, at.rate, 1e-10 * (1 + std::abs(at.rate)));
+          }
         }
         const double bound = rim.least_between(lanes.end(0), lanes.end(1));
         if (RimOnSolid::monotonic(lanes.end(0), lanes.end(1))) {

@@ -69,7 +69,7 @@ eccentra::styles::CommandGuard guard_of(const std::string& command) {
   return of_others;
 }
 
-void enter(LAMMPS_NS::LAMMPS* lmp) {
+void enter_host(LAMMPS_NS::LAMMPS* lmp) {
   refuse_a_library_that_passes_us_by(lmp);
   eccentra::styles::enter(lmp);
 }
@@ -79,21 +79,21 @@ void enter(LAMMPS_NS::LAMMPS* lmp) {
 namespace LAMMPS_NS {
 
 void Input::file() {
-  enter(lmp);
+  enter_host(lmp);
   eccentra::styles::watch_errors(lmp);
   static const auto stock = next_definition<void (*)(Input*)>("_ZN9LAMMPS_NS5Input4fileEv");
   stock(this);
 }
 
 void Input::file(const char* name) {
-  enter(lmp);
+  enter_host(lmp);
   eccentra::styles::watch_errors(lmp);
   static const auto stock = next_definition<void (*)(Input*, const char*)>("_ZN9LAMMPS_NS5Input4fileEPKc");
   stock(this, name);
 }
 
 char* Input::one(const char* line) {
-  enter(lmp);
+  enter_host(lmp);
   static const auto stock = next_definition<char* (*)(Input*, const char*)>("_ZN9LAMMPS_NS5Input3oneEPKc");
   return stock(this, line);
 }
