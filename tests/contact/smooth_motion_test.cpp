@@ -215,6 +215,48 @@ TEST(SmoothMotion, FallsLeaveNothingStuck) {
   }
 }
 
+// Impacts at 20 m/s, from a modulus at which bodies run through each other to one that holds them apart. Where the
+// cores do not meet, energy is kept; where they meet, nothing sticks and no body flies off (the pair style warns of
+// it).
+TEST(SmoothMotion, HardImpactsEndApart) {
+  const Species cube(made("smooth cube rounding .15", diameter)), w(wedge()),
+      disk(made("smooth disk aspect .31 rounding .5", diameter));
+  for (const Species* s : {&cube, &w, &disk})
+    for (const double youngs : {5e6, 5e7, 5e8})
+      for (const double restitution : {1., 0.5}) {
+        Random r(8);
+        int stuck = 0, deep = 0;
+        double apart = 0, met = 0; // energy made [of that before] where the cores stay apart, and where they meet
+        constexpr int impacts = eccentra::test::repetitions(20, 4);
+        for (int n = 0; n < impacts; ++n) {
+          Material material;
+          material.youngs = youngs;
+          material.restitution = restitution;
+          material.friction = 0;
+          SmallDem dem(material);
+          dem.dt = 2e-6 * std::sqrt(5e6 / youngs);
+          dem.add(*s, Vector3d::Zero(), {0, 0, 10}, r.orientation());
+          dem.add(*s, Vector3d(0.5 * s->core.bound * r.uniform(-1, 1), 0, 2.1 * s->core.bound), {0, 0, -10},
+                  r.orientation());
+          const double before = dem.kinetic_energy();
+          for (double time = 0; time < 1.5e-3; time += dem.dt)
+            dem.step();
+          deep += dem.most_sunk > 0;
+          double& made = dem.most_sunk > 0 ? met : apart;
+          made = std::max(made, dem.kinetic_energy() / before - 1);
+          stuck += eccentra::contact::gjk_distance(dem.bodies[0].posed, dem.bodies[1].posed,
+                                                   dem.bodies[1].x - dem.bodies[0].x) == 0;
+        }
+        std::printf(
+            "impacts at 20 m/s, E %.0e, e %.1f: cores met in %d of %d, stuck %d, energy %+.1e, where they met %+.1e\n",
+            youngs, restitution, deep, impacts, stuck, apart, met);
+        EXPECT_EQ(stuck, 0);
+        EXPECT_LT(apart, 1e-5);
+        EXPECT_LT(met, restitution < 1 ? 1e-5 : 2);
+        EXPECT_TRUE(youngs < 1e8 || deep == 0);
+      }
+}
+
 // Bodies put into each other come apart, without flying off.
 TEST(SmoothMotion, BodiesPutIntoEachOtherComeApart) {
   const Species cube(made("smooth cube rounding .15", diameter)), w(wedge()),

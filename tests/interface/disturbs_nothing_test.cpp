@@ -92,6 +92,16 @@ std::vector<std::vector<std::string>> thermo_table(const std::string& output) {
   return table;
 }
 
+/// The functions that liggghts-plugins/styles/entry/interposed.map lists.
+std::set<std::string> listed_functions() {
+  std::set<std::string> names;
+  std::ifstream file(required_environment("ECCENTRA_SOURCE") + "/liggghts-plugins/styles/entry/interposed.map");
+  for (std::string line; std::getline(file, line) && line.find("local:") == std::string::npos;)
+    if (const auto start = line.find("_Z"); start != std::string::npos && line[0] == ' ')
+      names.insert(line.substr(start, line.find(';') - start));
+  return names;
+}
+
 class Examples : public testing::TestWithParam<Example> {
  protected:
   ProgramResult run(const std::string& name, const std::vector<std::string>& program, const std::string& preload) {
@@ -129,6 +139,20 @@ TEST_P(Examples, ThermoOutputIsTheSame) {
   const ProgramResult loaded = run("loaded", {"liggghts"}, preload_of_eccentra());
   ASSERT_EQ(loaded.status, 0) << loaded.output;
   EXPECT_EQ(thermo_table(loaded.output), expected);
+}
+
+// LIGGGHTS would call our copies of its inline functions and templates instead of its own, with other last digits.
+TEST(Exports, NothingOfLiggghtsButTheFunctionsThatWeStandInFrontOf) {
+  const ProgramResult symbols =
+      run_program({"nm", "-D", "--defined-only", required_environment("ECCENTRA_LIB") + "/libeccentra.so"});
+  ASSERT_EQ(symbols.status, 0) << symbols.output;
+  std::set<std::string> exported;
+  std::istringstream lines(symbols.output);
+  for (std::string address, kind, name; lines >> address >> kind >> name;)
+    if (std::regex_search(name, std::regex("^_Z(N|NK|TVN|Th.*_N|Th.*_NK)(9LAMMPS_NS|8LIGGGHTS)")))
+      exported.insert(name);
+  EXPECT_EQ(exported, listed_functions());
+  EXPECT_GT(exported.size(), 10U);
 }
 
 std::string name_of(const testing::TestParamInfo<Example>& info) {

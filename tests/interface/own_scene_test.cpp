@@ -110,6 +110,11 @@ TEST_F(OwnScene, WellOfSpheresGoesOn) {
   ASSERT_EQ(made.status, 0) << made.output;
   const ProgramResult run = in_folder({"w/run", "--output", "r"});
   ASSERT_EQ(run.status, 0) << run.output;
+  // The case asks for a picture each 0.1 s, and the run is shorter.
+  const auto files = names_in(folder / "r/postProcessing/eccentra");
+  EXPECT_TRUE(std::any_of(files.begin(), files.end(), [](const std::string& name) {
+    return std::regex_match(name, std::regex("particles_[1-9][0-9]*\\.vtk"));
+  })) << "no picture after the start";
   // Rate of penetration: the hole's volume as mass.
   constexpr double kRadius = 8.5 * 0.0254 / 2, kDensity = 2619, kSpeed = 60 * 0.3048 / 3600;
   EXPECT_NEAR(printed(contents(folder / "w/scene"), "rate"), kDensity * 3.14159265 * kRadius * kRadius * kSpeed, 1e-4);

@@ -136,6 +136,34 @@ TEST_F(Setup, HostsBuiltFromSource) {
   expect_one_sentence(setup({"--liggghts"}), {"--liggghts", "folder"});
 }
 
+// Its folder has lists of its own models beside the header that includes them: ours must be read, with the models of
+// this library.
+TEST_F(Setup, ListsOfModelsOfALiggghtsBuiltFromSource) {
+  const fs::path source = folder / "liggghts/src";
+  fs::create_directories(source);
+  for (const auto& header : fs::directory_iterator(required_environment("ECCENTRA_LIGGGHTS_HEADERS")))
+    if (header.path().extension() == ".h" && header.path().filename().string().rfind("style_", 0) != 0)
+      fs::create_symlink(header.path(), source / header.path().filename());
+  for (const char* kind : {"surface", "normal", "tangential", "cohesion", "rolling"})
+    write_file(source / ("style_" + std::string(kind) + "_model.h"), "#error a list of LIGGGHTS's own\n");
+  fs::create_symlink(required_environment("ECCENTRA_LIGGGHTS_LIBRARY"), source / "liblmp_auto.so");
+  fs::create_symlink(required_environment("ECCENTRA_LIGGGHTS_PROGRAM"), source / "lmp_auto");
+  const ProgramResult made =
+      run_program({"cmake", "-G", "Ninja", "-S", required_environment("ECCENTRA_SOURCE"), "-B", (folder / "b").string(),
+                   "-DECCENTRA_LIGGGHTS_DIR=" + (folder / "liggghts").string(), "-DECCENTRA_OPENFOAM=OFF",
+                   "-DECCENTRA_TESTS=OFF", "-DECCENTRA_UNITS=OFF", "-DECCENTRA_PRECOMPILE=OFF"},
+                  {folder, {}, 120});
+  ASSERT_EQ(made.status, 0) << made.output;
+  const ProgramResult compiled = run_program(
+      {"python3", "-c",
+       "import json, subprocess, sys\n"
+       "line = next(e for e in json.load(open('b/compile_commands.json')) if "
+       "e['file'].endswith('/hertz_history_shape.cpp'))\n"
+       "sys.exit(subprocess.call(line['command'] + ' -fsyntax-only', shell=True, cwd=line['directory']))\n"},
+      {folder, {}, 120});
+  EXPECT_EQ(compiled.status, 0) << compiled.output;
+}
+
 TEST_F(Setup, HeadersOfAnotherVersionAreRefused) {
   fs::create_directories(folder / "headers/TurbulenceModels/phaseIncompressible/lnInclude");
   write_file(folder / "headers/version", "1906.191111-1\n");

@@ -25,6 +25,8 @@ class HullContacts {
   /// first-level cache.
   static constexpr int in_block = 24;
 
+  bool warned_of_sunk_cores = false;
+
   /// A new step: bodies have moved.
   void begin_step(int bodies) {
     ++step_;

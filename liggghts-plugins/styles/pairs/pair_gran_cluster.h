@@ -117,6 +117,7 @@ class PairGranCluster : public LAMMPS_NS::PairGran {
   bool add_boxes(int number, const NearPair& p, const contact::Double4& to_b);
   void evaluate_hulls();
   void take_manifolds();
+  void judge_sunk_cores(const NearPair& near, double depth);
   void add_hull_contacts(WaitingPair& pair, const contact::Contact* contacts, int count);
   void make_room_in_block(int contacts);
   void evaluate_large_hull(WaitingPair& pair, const contact::Contact* contacts, int count, int real);

@@ -164,16 +164,29 @@ void PairGranCluster::take_manifolds() {
       continue;
     }
     const NearPair& near = near_->pairs[pair.number];
-    if (hulls.manifolds.sunk(n) > kMaxSunk * std::min(near_->bound_a(near), near_->bound_b(near)))
-      error->one(FLERR, ("pair_style gran/cluster: the bodies " + std::to_string(near_->tag(near.a)) + " and " +
-                         std::to_string(near_->tag(near.b)) +
-                         " have run into each other by most of their size: use a smaller time step (see fix "
-                         "timestep/limit) or a larger Young's modulus")
-                            .c_str());
+    if (hulls.manifolds.sunk(n) > 0)
+      judge_sunk_cores(near, hulls.manifolds.sunk(n));
     add_hull_contacts(pair, all.data() + first, last - first);
   }
   hulls.manifolds.clear();
   hulls.waiting.clear();
+}
+
+/// Says once that cores have met, and stops where one body is inside the other.
+void PairGranCluster::judge_sunk_cores(const NearPair& near, double depth) {
+  const std::string bodies = "pair_style gran/cluster: the bodies " + std::to_string(near_->tag(near.a)) + " and " +
+                             std::to_string(near_->tag(near.b));
+  if (depth > kMaxSunk * std::min(near_->bound_a(near), near_->bound_b(near)))
+    error->one(FLERR, (bodies + " have run into each other by most of their size: use a smaller time step (see fix "
+                                "timestep/limit) or a larger Young's modulus")
+                          .c_str());
+  if (hulls_->warned_of_sunk_cores)
+    return;
+  hulls_->warned_of_sunk_cores = true;
+  error->warning(FLERR, (bodies + " overlap by more than the radii of their edges, where no contact law holds (an "
+                                  "elastic impact gains energy): use a "
+                                  "larger Young's modulus, a larger rounding or contact_radius")
+                            .c_str());
 }
 
 /// Adds the contacts of a pair to the block, whose forces are added once it is full.
