@@ -29,6 +29,9 @@ add_library(eccentra_options INTERFACE)
 target_compile_options(eccentra_options INTERFACE -Wall -Wextra -Wno-maybe-uninitialized -fno-math-errno -fno-trapping-math)
 if(ECCENTRA_NATIVE)
   target_compile_options(eccentra_options INTERFACE -march=native)
+else()
+  # Vectors of four numbers are passed in memory then, by all of our libraries alike.
+  target_compile_options(eccentra_options INTERFACE -Wno-psabi)
 endif()
 if(ECCENTRA_SANITIZE)
   # Without the checks of each pointer that is followed: the address sanitizer finds what is wrong there (but
