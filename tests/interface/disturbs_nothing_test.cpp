@@ -51,9 +51,8 @@ std::string shortened(const std::string& script, int steps) {
     const auto shorter = [steps](const std::string& number) {
       return std::to_string(std::min(std::stoi(number), steps));
     };
-    if (std::regex_match(line, match, run) && std::isdigit(static_cast<unsigned char>(match.str(2)[0])))
-      line = match.str(1) + shorter(match.str(2));
-    else if (std::regex_match(line, match, growth))
+    if ((std::regex_match(line, match, run) && std::isdigit(static_cast<unsigned char>(match.str(2)[0]))) ||
+        std::regex_match(line, match, growth))
       line = match.str(1) + shorter(match.str(2));
     result += line + "\n";
   }

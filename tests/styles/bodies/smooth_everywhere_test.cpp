@@ -113,7 +113,8 @@ TEST(SmoothEverywhere, ABedSleepsAndWakes) {
   constexpr int bodies = 36;
   for (int n = 0; n < bodies; ++n) {
     Start start;
-    start.position = 8e-3 * Vector3d(n % 3 + 0.5, n / 3 % 3 + 0.5, n / 9 + 0.7);
+    const int row = n / 3 % 3, layer = n / 9;
+    start.position = 8e-3 * Vector3d(n % 3 + 0.5, row + 0.5, layer + 0.7);
     start.orientation = Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
     if (n % 4 == 3)
       add_sphere(session, start, diameter / 2);
