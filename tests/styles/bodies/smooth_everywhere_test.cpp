@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rounded bodies where clusters have been tested before: on meshes that move, asleep, in dense fills, at high speed.
 #include "bodies_scene.h"
+#include "posed_cores.h"
 
 #include "contact/gjk.h"
 #include "shape/rounded_hull.h"
@@ -162,13 +163,7 @@ TEST(SmoothEverywhere, ADenseFillFallsAndSettles) {
       fastest = std::max(fastest, Eigen::Map<Vector3d>(session.atom().v[i]).norm());
   }
   EXPECT_LT(fastest, std::sqrt(2 * gravity * 0.05)) << "none is faster than a free fall from the top";
-  const styles::FixClusterBodies& bodies = *styles::FixClusterBodies::find(&session.lammps());
-  std::vector<contact::PosedCore> posed(count);
-  for (int i = 0; i < count; ++i) {
-    const double* q = bodies.quaternion(i);
-    posed[i].pose(bodies.shapes().surface(bodies.shape_id(i)).core,
-                  Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix());
-  }
+  const std::vector<contact::PosedCore> posed = posed_cores(session);
   for (int i = 0; i < count; ++i)
     for (int j = 0; j < i; ++j) {
       const Vector3d offset = Eigen::Map<Vector3d>(session.atom().x[j]) - Eigen::Map<Vector3d>(session.atom().x[i]);

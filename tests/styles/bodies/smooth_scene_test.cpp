@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rounded bodies in LIGGGHTS: impacts, balls, walls, mixed scenes, insertion, restart.
 #include "bodies_scene.h"
+#include "posed_cores.h"
 
 #include "contact/gjk.h"
 #include "shape/drawn_surface.h"
@@ -339,13 +340,7 @@ TEST(SmoothScene, InsertionByTrueSurfaces) {
                  "overlapcheck yes all_in yes volumefraction_region 0.3 region pack\nrun 1\n");
   const int count = static_cast<int>(session.atom().natoms);
   EXPECT_GT(count, 100);
-  const styles::FixClusterBodies& bodies = *styles::FixClusterBodies::find(&session.lammps());
-  std::vector<contact::PosedCore> posed(count);
-  for (int i = 0; i < count; ++i) {
-    const double* q = bodies.quaternion(i);
-    posed[i].pose(bodies.shapes().surface(bodies.shape_id(i)).core,
-                  Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix());
-  }
+  const std::vector<contact::PosedCore> posed = posed_cores(session);
   int inside = 0; // bounding spheres that overlap
   for (int i = 0; i < count; ++i)
     for (int j = 0; j < i; ++j) {
