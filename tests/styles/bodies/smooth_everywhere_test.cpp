@@ -167,8 +167,9 @@ TEST(SmoothEverywhere, ADenseFillFallsAndSettles) {
   for (int i = 0; i < count; ++i)
     for (int j = 0; j < i; ++j) {
       const Vector3d offset = Eigen::Map<Vector3d>(session.atom().x[j]) - Eigen::Map<Vector3d>(session.atom().x[i]);
-      if (offset.norm() < 2 * posed[0].core->bound)
+      if (offset.norm() < 2 * posed[0].core->bound) {
         EXPECT_GT(contact::gjk_distance(posed[i], posed[j], offset), 0) << "cores of " << i << " and " << j;
+      }
     }
 }
 
