@@ -174,18 +174,19 @@ void PairGranCluster::take_manifolds() {
 
 /// Says once that cores have met, and stops where one body is inside the other.
 void PairGranCluster::judge_sunk_cores(const NearPair& near, double depth) {
+  const bool beyond = depth > kMaxSunk * std::min(near_->bound_a(near), near_->bound_b(near));
+  if (hulls_->warned_of_sunk_cores && !beyond)
+    return;
+  hulls_->warned_of_sunk_cores = true;
   const std::string bodies = "pair_style gran/cluster: the bodies " + std::to_string(near_->tag(near.a)) + " and " +
                              std::to_string(near_->tag(near.b));
-  if (depth > kMaxSunk * std::min(near_->bound_a(near), near_->bound_b(near)))
+  if (beyond)
     error->one(FLERR, (bodies + " have run into each other by most of their size: use a smaller time step (see fix "
                                 "timestep/limit) or a larger Young's modulus")
                           .c_str());
-  if (hulls_->warned_of_sunk_cores)
-    return;
-  hulls_->warned_of_sunk_cores = true;
   error->warning(FLERR, (bodies + " overlap by more than the radii of their edges, where no contact law holds (an "
                                   "elastic impact gains energy): use a "
-                                  "larger Young's modulus, a larger rounding or contact_radius")
+                                  "larger Young's modulus, rounding or contact_radius")
                             .c_str());
 }
 
