@@ -5,6 +5,7 @@
 #include "link/checkpoint/checkpoint_choice.h"
 #include "link/checkpoint/checkpoint_room.h"
 #include "link/checkpoint/resume_command.h"
+#include "link/start_mpi.h"
 #include "styles/entry/script_replay.h"
 #include "styles/entry/style_registry.h"
 
@@ -141,7 +142,7 @@ int main(int argc, char** argv) {
   }
   eccentra::link::remember_command(argc, argv);
   install_signal_handlers();
-  MPI_Init(&argc, &argv);
+  eccentra::link::start_mpi(&argc, &argv);
   std::vector<std::string> words;
   for (int i = 0; i < argc; ++i) {
     if (std::strcmp(argv[i], "-resume") != 0) {

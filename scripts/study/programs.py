@@ -43,8 +43,7 @@ class RunFailed(Failure):
 def environment():
     """Of every program that a study starts: no result depends on the user's language."""
     of_root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-    # A program that runs alone starts no daemon of Open MPI beside it: half of its start's time.
-    return {"WM_PROJECT_DIR": OPENFOAM, "OMPI_MCA_ess_singleton_isolated": "1", **os.environ, **of_root, "LC_ALL": "C"}
+    return {"WM_PROJECT_DIR": OPENFOAM, **os.environ, **of_root, "LC_ALL": "C"}
 
 
 def digest_of(*paths):

@@ -3,6 +3,7 @@
 // Seconds per exchange of 30,000 particles: finding cells, deposition and sampling, with and without diffusion.
 #include "exchange/particleExchange.H"
 #include "exchange/shared_mesh.h"
+#include "link/start_mpi.h"
 
 #include <benchmark/benchmark.h>
 
@@ -97,7 +98,7 @@ void exchangeOf(benchmark::State& state, VoidFraction method) {
 } // namespace
 
 int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
+  eccentra::link::start_mpi(&argc, &argv);
   test::openSharedMesh(argv[0]);
   benchmark::Initialize(&argc, argv);
   benchmark::RegisterBenchmark("link solver", travel)->Unit(benchmark::kMillisecond);

@@ -64,6 +64,21 @@ TEST(Launcher, EveryListedFixIsKnownToLiggghts) {
   EXPECT_NE(run.output.find("Invalid fix style"), std::string::npos) << run.output;
 }
 
+/// Open MPI 4: programs without a launcher share a session folder, which the first to end removes while others make it.
+TEST(Launcher, AloneSharesNoFolderOfMpi) {
+  const auto folder = fresh_folder("alone");
+  write_file(folder / "in.x", minimal_script + "shell ls -R . > seen.txt\nshell env > environment.txt\n");
+  const ProgramResult run =
+      run_program({launcher(), "-in", "in.x", "-log", "none"}, {folder, {"TMPDIR=" + folder.string()}, 30});
+  EXPECT_EQ(run.status, 0) << run.output;
+  const std::string seen = contents(folder / "seen.txt");
+  EXPECT_NE(seen.find("in.x"), std::string::npos) << seen;
+  EXPECT_EQ(seen.find("jf.0"), std::string::npos) << seen;
+  const std::string environment = contents(folder / "environment.txt");
+  EXPECT_NE(environment.find("TMPDIR="), std::string::npos) << environment;
+  EXPECT_EQ(environment.find("create_session_dirs"), std::string::npos) << environment;
+}
+
 TEST(Preload, StockProgramRunsWithTheLibrary) {
   const auto folder = fresh_folder("preload");
   write_file(folder / "in.x", minimal_script);

@@ -5,6 +5,7 @@
 // on five ranks.
 #include "link/lane_sides.h"
 #include "link/socket/keys.h"
+#include "link/start_mpi.h"
 
 #include <gtest/gtest.h>
 #include <mpi.h>
@@ -335,7 +336,7 @@ TEST(RankConnections, AnswerToAnotherCouplingStepIsRefused) {
 }
 
 int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
+  eccentra::link::start_mpi(&argc, &argv);
   ::testing::InitGoogleTest(&argc, argv);
   const int failed = RUN_ALL_TESTS();
   MPI_Finalize();

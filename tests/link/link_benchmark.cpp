@@ -5,6 +5,7 @@
 #include "link/socket/fluid_server.h"
 #include "link/socket/socket_peer.h"
 #include "link/socket/wire.h"
+#include "link/start_mpi.h"
 
 #include <mpi.h>
 
@@ -171,7 +172,7 @@ int measure(bool dem, MPI_Comm side, const Words& arguments, bool extents, Rows 
 } // namespace
 
 int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
+  eccentra::link::start_mpi(&argc, &argv);
   int rank = 0, size = 0, failed = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &size);

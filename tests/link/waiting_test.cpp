@@ -4,6 +4,7 @@
 // one takes its time. Run on four ranks.
 #include "link/socket/fluid_server.h"
 #include "link/socket/socket_peer.h"
+#include "link/start_mpi.h"
 
 #include <gtest/gtest.h>
 #include <mpi.h>
@@ -93,7 +94,7 @@ TEST(Waiting, CostsNoProcessorTime) {
 }
 
 int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
+  eccentra::link::start_mpi(&argc, &argv);
   ::testing::InitGoogleTest(&argc, argv);
   const int failed = RUN_ALL_TESTS();
   MPI_Finalize();

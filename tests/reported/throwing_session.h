@@ -4,6 +4,7 @@
 // functions of LIGGGHTS.
 #pragma once
 
+#include "link/start_mpi.h"
 #include "styles/bodies/fix_cluster_bodies.h"
 #include "styles/entry/style_registry.h"
 
@@ -45,7 +46,7 @@ class Session {
     int initialised = 0;
     MPI_Initialized(&initialised);
     if (!initialised) {
-      MPI_Init(nullptr, nullptr);
+      link::start_mpi(nullptr, nullptr);
       std::atexit([] { MPI_Finalize(); });
     }
     static std::vector<std::string> words = {"liggghts", "-log", "none", "-screen", "/dev/null"};

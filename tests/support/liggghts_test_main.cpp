@@ -3,6 +3,7 @@
 // Starts MPI around GoogleTest for programs that run LIGGGHTS, and implements LiggghtsSession.
 #include "support/liggghts_session.h"
 
+#include "link/start_mpi.h"
 #include "styles/entry/style_registry.h"
 
 #include "comm.h"
@@ -76,7 +77,7 @@ int LiggghtsSession::ranks() const {
 } // namespace eccentra::test
 
 int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
+  eccentra::link::start_mpi(&argc, &argv);
   ::testing::InitGoogleTest(&argc, argv);
   int failed = RUN_ALL_TESTS();
   // Every rank fails if one does.
