@@ -77,6 +77,29 @@ ContactCore::ContactCore(const std::vector<Vector3d>& centres, const std::vector
   contact_radius = radius;
 }
 
+ContactCore::ContactCore(const std::vector<MeshTriangle>& triangles) : solid(SolidKind::surface), surface(triangles) {
+  std::vector<Vector3d> corners;
+  const auto number = [&](const Vector3d& corner, double near) {
+    const auto at =
+        std::find_if(corners.begin(), corners.end(), [&](const Vector3d& c) { return (c - corner).norm() < near; });
+    if (at != corners.end())
+      return static_cast<int>(at - corners.begin());
+    corners.push_back(corner);
+    return static_cast<int>(corners.size()) - 1;
+  };
+  for (const MeshTriangle& t : triangles) {
+    int corner[3];
+    for (int k = 0; k < 3; ++k)
+      corner[k] = number(t.corner[k], t.same_place());
+    for (int k = 0; k < 3; ++k)
+      if (t.edge_active[k])
+        edges.push_back({corner[k], corner[(k + 1) % 3]});
+  }
+  set_points(corners);
+  for (const Vector3d& corner : corners)
+    bound = std::max(bound, corner.norm());
+}
+
 void ContactCore::set_points(const std::vector<Vector3d>& centres) {
   points = static_cast<int>(centres.size());
   const int length = (points + lane_width - 1) / lane_width * lane_width;
@@ -167,9 +190,14 @@ shape::CoreDistance distance_to(const PosedCore& posed, const Vector3d& point) {
   else if (core.is_disk())
     d = shape::distance_to_core(shape::DiskCore{core.half.x(), core.half.z()}, local);
   else
-    d = shape::distance_to_core(core.polyhedron, local);
+    d = distance_to_faces(core, local);
   d.normal = (posed.rotation * d.normal).eval();
   return d;
+}
+
+shape::CoreDistance distance_to_faces(const ContactCore& core, const Vector3d& point) {
+  return core.solid == SolidKind::surface ? distance_to(core.surface, point)
+                                          : shape::distance_to_core(core.polyhedron, point);
 }
 
 } // namespace eccentra::contact

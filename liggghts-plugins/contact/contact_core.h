@@ -3,6 +3,7 @@
 // What contacts need of a body's core: points, lines and a solid, laid out for vector loops, and posed in the world.
 #pragma once
 
+#include "contact/mesh_triangle.h"
 #include "shape/rounded_hull.h"
 
 #include <Eigen/Core>
@@ -16,7 +17,7 @@ namespace eccentra::contact {
 constexpr int lane_width = 8;
 
 /// How the distance of a point from a core is found. `none`: the body is its points, each with a radius of its own.
-enum class SolidKind { none, box, polyhedron, flat, disk };
+enum class SolidKind { none, box, polyhedron, flat, disk, surface };
 
 /// Features have one numbering per body, of which contacts make their ids: points first (vertices, points on rims,
 /// sub-spheres), then lines (straight edges, or the arcs between points on rims and the axis of a disk), then the
@@ -30,6 +31,8 @@ struct ContactCore {
   ContactCore(const shape::ConvexCore& core, double radius);
   /// A union of spheres.
   ContactCore(const std::vector<Eigen::Vector3d>& centres, const std::vector<double>& radii);
+  /// A surface of triangles, of radius 0, seen from either side: their corners, each once, and the active edges.
+  explicit ContactCore(const std::vector<MeshTriangle>& triangles);
 
   SolidKind solid = SolidKind::none; ///< form of the core
   double radius = 0;                 ///< of the rounding [m]; with `none` the largest of the points'
@@ -42,6 +45,7 @@ struct ContactCore {
   std::vector<std::array<int, 2>> edges; ///< pairs of points
   Eigen::Vector3d half = {0, 0, 0};      ///< of a box, its half edges; of a disk, its radius twice and its half height
   shape::ConvexCore polyhedron;          ///< of polyhedra and flat cores
+  std::vector<MeshTriangle> surface;     ///< of surfaces
   int ring = 0;                          ///< points on each rim of a disk
   int rims = 0;                          ///< of a disk: 1 or 2
 
@@ -86,6 +90,9 @@ struct PosedCore {
 /// Distance of `point` (world axes, from the body's centre) from the core, and the normal there, from core to point.
 /// Inside, minus the depth under the nearest face.
 shape::CoreDistance distance_to(const PosedCore& posed, const Eigen::Vector3d& point);
+
+/// The same of a polyhedron, a flat core or a surface, in the body frame.
+shape::CoreDistance distance_to_faces(const ContactCore& core, const Eigen::Vector3d& point);
 
 /// Features of A and B as one number, ascending first in A's.
 constexpr int feature_id(int a, int b) {

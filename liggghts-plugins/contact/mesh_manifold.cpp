@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 
 namespace eccentra::contact {
 
@@ -14,38 +14,69 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Points of two triangles that are closer than this part of an edge are one.
-constexpr double same_place = 1e-7;
+constexpr int face_feature = 6; // of a triangle
+constexpr int edge_feature = 3;
 
-double size_of(const MeshTriangle& t) {
-  return (t.corner[1] - t.corner[0]).norm();
+/// Whether a point of a surface belongs to another triangle instead: one that has it and is closer to the body's
+/// `point` elsewhere, or one that is as close and comes first.
+bool belongs_elsewhere(const Vector3d& on, const Vector3d& point, double near, const MeshTriangle& other,
+                       bool other_first) {
+  if ((other.closest(on) - on).norm() >= near)
+    return false;
+  return (other.closest(point) - on).norm() >= near || other_first;
 }
+
+/// One surface of a mesh as a solid, and where its features are in the mesh.
+struct MeshSurface {
+  ContactCore solid;
+  std::vector<int> number_of; ///< of a member among the triangles
+  /// Of a corner or edge of the solid: its member (-1: at no active edge), and its feature there.
+  std::vector<std::array<int, 2>> corner_at, edge_at;
+
+  MeshSurface(const std::vector<MeshTriangle>& triangles, const std::vector<int>& surface, int number)
+      : solid(members_of(triangles, surface, number)), corner_at(solid.points, {-1, -1}) {
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      if (surface[t] == number)
+        number_of.push_back(static_cast<int>(t));
+    for (int m = 0; m < static_cast<int>(solid.surface.size()); ++m)
+      for (int k = 0; k < 3; ++k)
+        if (solid.surface[m].edge_active[k]) {
+          const std::array<int, 2>& ends = solid.edges[edge_at.size()];
+          edge_at.push_back({m, edge_feature + k});
+          for (int end = 0; end < 2; ++end)
+            if (corner_at[ends[end]][0] < 0)
+              corner_at[ends[end]] = {m, (k + end) % 3};
+        }
+  }
+
+  /// Member and feature that a contact with the solid has.
+  std::array<int, 2> place_of(const Contact& contact) const {
+    const int feature = feature_b(contact.id);
+    if (feature < solid.points)
+      return corner_at[feature];
+    if (feature < solid.solid_feature())
+      return edge_at[feature - solid.points];
+    const Vector3d on = contact.arm - contact.distance * contact.normal;
+    const auto apart = [&](const MeshTriangle& t) { return (t.closest(on) - on).squaredNorm(); };
+    int closest = 0;
+    for (int m = 1; m < static_cast<int>(solid.surface.size()); ++m)
+      if (apart(solid.surface[m]) < apart(solid.surface[closest]))
+        closest = m;
+    return {closest, face_feature + feature - solid.solid_feature()};
+  }
+
+ private:
+  static std::vector<MeshTriangle> members_of(const std::vector<MeshTriangle>& triangles,
+                                              const std::vector<int>& surface, int number) {
+    std::vector<MeshTriangle> members;
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      if (surface[t] == number)
+        members.push_back(triangles[t]);
+    return members;
+  }
+};
 
 } // namespace
-
-Vector3d MeshTriangle::normal() const {
-  return (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
-}
-
-Vector3d MeshTriangle::closest(const Vector3d& point) const {
-  const Vector3d n = normal();
-  bool over = true;
-  double least = 0;
-  Vector3d best = point;
-  for (int k = 0; k < 3; ++k) {
-    const Vector3d &a = corner[k], along = corner[(k + 1) % 3] - a;
-    if (n.cross(along).dot(point - a) >= 0)
-      continue;
-    const Vector3d on = a + std::clamp((point - a).dot(along) / along.squaredNorm(), 0., 1.) * along;
-    const double square = (point - on).squaredNorm();
-    if (over || square < least) {
-      least = square;
-      best = on;
-    }
-    over = false;
-  }
-  return over ? Vector3d(point - n.dot(point - corner[0]) * n) : best;
-}
 
 MeshManifold::MeshManifold()
     : core_(shape::make_core({Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 0)}, {{0, 1, 2}, {0, 2, 1}}), 0.) {
@@ -58,6 +89,10 @@ const std::vector<MeshManifold::Touch>& MeshManifold::touches(const ContactBody&
   const std::size_t count = triangles.size();
   touches_.clear();
   corners_.clear();
+  if (core.is_disk()) {
+    touches_of_disk(body, triangles);
+    return touches_;
+  }
   closest_.resize(count);
   points_.resize(std::max(points_.size(), count));
   for (std::vector<int>& points : points_)
@@ -74,7 +109,7 @@ const std::vector<MeshManifold::Touch>& MeshManifold::touches(const ContactBody&
       for (std::size_t other = 0; counts && other < count; ++other) {
         if (other == t)
           continue;
-        const double near = same_place * std::max(size_of(triangles[t]), size_of(triangles[other]));
+        const double near = std::max(triangles[t].same_place(), triangles[other].same_place());
         const bool same = (closest_[other] - closest_[t]).norm() < near;
         // The first of those with the same closest point has it; one that has this point, but a closer one, has all.
         if (same ? other < t : (triangles[other].closest(closest_[t]) - closest_[t]).norm() < near)
@@ -95,21 +130,15 @@ void MeshManifold::take(const ContactBody& body, const std::vector<MeshTriangle>
   candidates_.clear();
   for (const int k : points_[number])
     candidates_.push_back(feature_id(k, core_.solid_feature()));
-  if (core.solid != SolidKind::none && !core.is_disk()) {
+  if (core.solid != SolidKind::none) {
     for (std::size_t i = 0; i < core.edges.size(); ++i)
       for (int k = 0; k < 3; ++k)
         if (triangle.edge_active[k])
           candidates_.push_back(feature_id(core.line_feature(static_cast<int>(i)), core_.line_feature(k)));
-    for (int k = 0; k < 3; ++k) {
-      const Vector3d& corner = triangle.corner[k];
-      if (!(triangle.edge_active[k] || triangle.edge_active[(k + 2) % 3]) || corner.norm() >= core.bound + body.extra)
-        continue;
-      const double near = same_place * size_of(triangle);
-      if (std::any_of(corners_.begin(), corners_.end(), [&](const Vector3d& c) { return (c - corner).norm() < near; }))
-        continue;
-      corners_.push_back(corner);
-      candidates_.push_back(feature_id(core.solid_feature(), k));
-    }
+    for (int k = 0; k < 3; ++k)
+      if ((triangle.edge_active[k] || triangle.edge_active[(k + 2) % 3]) &&
+          take_corner(triangle.corner[k], triangle.same_place(), body))
+        candidates_.push_back(feature_id(core.solid_feature(), k));
   }
   if (candidates_.empty())
     return;
@@ -121,6 +150,68 @@ void MeshManifold::take(const ContactBody& body, const std::vector<MeshTriangle>
   manifolds_.evaluate();
   for (const Contact& c : manifolds_.contacts())
     touches_.push_back({number, c});
+}
+
+/// Whether a corner is in reach of the body and has not been counted before.
+bool MeshManifold::take_corner(const Vector3d& corner, double near, const ContactBody& body) {
+  if (corner.norm() >= body.posed->core->bound + body.extra ||
+      std::any_of(corners_.begin(), corners_.end(), [&](const Vector3d& c) { return (c - corner).norm() < near; }))
+    return false;
+  corners_.push_back(corner);
+  return true;
+}
+
+void MeshManifold::touches_of_disk(const ContactBody& disk, const std::vector<MeshTriangle>& triangles) {
+  // What is out of reach joins no surfaces: neighbour lists may hold more or less of it.
+  std::vector<MeshTriangle> near;
+  std::vector<int> number;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    if (triangles[t].closest(Vector3d::Zero()).norm() < disk.posed->core->bound + disk.extra) {
+      near.push_back(triangles[t]);
+      number.push_back(static_cast<int>(t));
+    }
+  const std::vector<int> surface = surfaces_of(near, Vector3d::Zero());
+  for (int t = 0; t < static_cast<int>(near.size()); ++t)
+    if (surface[t] == t)
+      take_surface(disk, near, surface, t);
+  for (Touch& touch : touches_)
+    touch.triangle = number[touch.triangle];
+}
+
+/// A disk against the triangles of one surface, as against one solid.
+void MeshManifold::take_surface(const ContactBody& disk, const std::vector<MeshTriangle>& triangles,
+                                const std::vector<int>& surface, int number) {
+  const ContactCore& core = *disk.posed->core;
+  const MeshSurface mesh(triangles, surface, number);
+  const ContactCore& solid = mesh.solid;
+  posed_.pose(solid, Eigen::Matrix3d::Identity());
+  candidates_.clear();
+  for (int k = 0; k < core.points + core.arcs(); ++k)
+    candidates_.push_back(feature_id(k, solid.solid_feature()));
+  if (core.has_axis())
+    for (int k = 0; k < solid.lines(); ++k)
+      candidates_.push_back(feature_id(core.axis_feature(), solid.line_feature(k)));
+  for (int k = 0; k < solid.points; ++k)
+    if (const int m = mesh.corner_at[k][0]; m >= 0 && take_corner(posed_.point(k), solid.surface[m].same_place(), disk))
+      candidates_.push_back(feature_id(core.solid_feature(), k));
+  manifolds_.clear();
+  manifolds_.add({disk, {&posed_, 0}, Vector3d::Zero()}, candidates_.data(), static_cast<int>(candidates_.size()));
+  manifolds_.evaluate();
+  for (Contact c : manifolds_.contacts()) {
+    const auto [member, feature] = mesh.place_of(c);
+    const double own = solid.surface[member].same_place();
+    const auto takes_it = [&, on = Vector3d(c.arm - c.distance * c.normal)](std::size_t t) {
+      return surface[t] != number &&
+             belongs_elsewhere(on, c.arm, std::max(own, triangles[t].same_place()), triangles[t], surface[t] < number);
+    };
+    bool elsewhere = false;
+    for (std::size_t t = 0; feature >= face_feature && !elsewhere && t < triangles.size(); ++t)
+      elsewhere = takes_it(t);
+    if (elsewhere)
+      continue;
+    c.id = feature_id(feature_a(c.id), feature);
+    touches_.push_back({mesh.number_of[member], c});
+  }
 }
 
 void MeshManifold::pose_triangle(const MeshTriangle& triangle, const Vector3d& middle) {

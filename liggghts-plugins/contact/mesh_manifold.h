@@ -4,31 +4,20 @@
 #pragma once
 
 #include "contact/manifold.h"
+#include "contact/mesh_triangle.h"
 
-#include <array>
 #include <vector>
 
 namespace eccentra::contact {
 
-/// Corners from the body's centre [m]; edge k joins corners k and k + 1. An edge is active in one of the triangles that
-/// share it, and in none where a plane goes on across it.
-struct MeshTriangle {
-  std::array<Eigen::Vector3d, 3> corner; ///< from the body's centre [m]
-  std::array<bool, 3> edge_active;       ///< by the number of an edge
-  /// Unit, by the order of the corners.
-  Eigen::Vector3d normal() const;
-  /// The point closest to another.
-  Eigen::Vector3d closest(const Eigen::Vector3d& point) const;
-};
-
 /// The mesh is a solid of radius 0, seen from either side. The body's points touch where the mesh is closest: a point
 /// of an edge or corner counts where all triangles that have it are closest there, and once. Of polyhedra edges touch
-/// active edges, and the solid touches the corners at their ends, with weights as in Manifolds. Disks touch with their
-/// points alone.
+/// active edges, and the solid touches the corners at their ends, with weights as in Manifolds. Disks touch each of
+/// surfaces_of() as they touch a solid.
 class MeshManifold {
  public:
-  /// Features of a triangle in ids: corners 0 to 2, edges 3 to 5, the face.
-  static constexpr int features = 7;
+  /// Features of a triangle in ids: corners 0 to 2, edges 3 to 5, the face; from 7 on further points of an arc on it.
+  static constexpr int features = 16;
 
   /// Normals lead out of the mesh; the body is A of each contact.
   struct Touch {
@@ -41,6 +30,10 @@ class MeshManifold {
 
  private:
   void take(const ContactBody& body, const std::vector<MeshTriangle>& triangles, int number);
+  bool take_corner(const Eigen::Vector3d& corner, double near, const ContactBody& body);
+  void touches_of_disk(const ContactBody& disk, const std::vector<MeshTriangle>& triangles);
+  void take_surface(const ContactBody& disk, const std::vector<MeshTriangle>& triangles,
+                    const std::vector<int>& surface, int number);
   void pose_triangle(const MeshTriangle& triangle, const Eigen::Vector3d& middle);
 
   ContactCore core_; ///< of the triangle at hand

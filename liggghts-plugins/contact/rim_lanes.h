@@ -155,7 +155,7 @@ inline void RimLanes::on_boxes() {
 
 inline void RimLanes::on_polyhedra(const std::vector<const ContactCore*>& solid) {
   for (int k = 0; k < count; ++k) {
-    const shape::CoreDistance found = shape::distance_to_core(solid[k]->polyhedron, vector(px, k));
+    const shape::CoreDistance found = distance_to_faces(*solid[k], vector(px, k));
     const double length = 1 / vector(ox, k).norm();
     for (int j = 0; j < 3; ++j)
       rows_.row(nx + j)[k] = found.normal[j];

@@ -214,7 +214,7 @@ class RimOnSolid {
   }
   static void of_polyhedron(const ContactCore& core, const Eigen::Vector3d& p, const Eigen::Vector3d& along,
                             RimSample& found) {
-    found.point.at = shape::distance_to_core(core.polyhedron, p);
+    found.point.at = distance_to_faces(core, p);
     found.slope = found.point.at.normal.dot(along);
     found.rate = std::numeric_limits<double>::quiet_NaN();
   }

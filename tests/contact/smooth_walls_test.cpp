@@ -67,13 +67,88 @@ TEST(SmoothWalls, OverATriangleAHullIsOnAPlane) {
   }
 }
 
+/// Triangles of a floor at z = -height of squares of this edge, turned about z.
+std::vector<MeshTriangle> floor_of_squares(double edge, double height, double turn, const Vector3d& middle) {
+  std::vector<MeshTriangle> floor;
+  const Matrix3d rotation = AngleAxisd(turn, Vector3d::UnitZ()).toRotationMatrix();
+  const auto at = [&](int i, int j) {
+    return Vector3d(rotation * Vector3d(edge * i, edge * j, 0) + Vector3d(middle.x(), middle.y(), -height));
+  };
+  for (int i = -4; i < 4; ++i)
+    for (int j = -4; j < 4; ++j) {
+      floor.push_back({{at(i, j), at(i + 1, j), at(i + 1, j + 1)}, {false, false, false}});
+      floor.push_back({{at(i, j), at(i + 1, j + 1), at(i, j + 1)}, {false, false, false}});
+    }
+  return floor;
+}
+
+std::vector<Contact> on_mesh(const PosedCore& body, const std::vector<MeshTriangle>& mesh) {
+  MeshManifold manifold;
+  std::vector<Contact> found;
+  for (const auto& touch : manifold.touches({&body}, mesh))
+    found.push_back(touch.contact);
+  return found;
+}
+
+void expect_same_load(const Load& a, const Load& b, const std::string& what) {
+  EXPECT_LT((a.force - b.force).norm(), 1e-9 * (1 + a.force.norm())) << what;
+  EXPECT_LT((a.torque - b.torque).norm(), 1e-9 * (1 + a.torque.norm())) << what;
+}
+
+// A floor of triangles is the plane, whatever their size and wherever the body stands on them.
+TEST(SmoothWalls, AFloorOfTrianglesIsThePlane) {
+  Random r(21);
+  for (const char* line : {"smooth cube rounding .2", "smooth disk aspect .31 rounding .5",
+                           "smooth disk aspect 1 rounding .2", "smooth disk aspect .31 rounding 1"}) {
+    const ContactCore core(made(line));
+    for (int n = 0; n < 100; ++n) {
+      PosedCore body;
+      // Anyhow, and with the axis of a disk in the plane or across it.
+      body.pose(core, n % 4 == 0   ? AngleAxisd(M_PI / 2, Vector3d::UnitX()).toRotationMatrix()
+                      : n % 4 == 1 ? Matrix3d(Matrix3d::Identity())
+                                   : r.turn());
+      const double height = body.reach_along({0, 0, -1}) + r.uniform(0.5, 0.99) * core.radius;
+      std::vector<Contact> on_plane;
+      plane_contacts({&body}, Vector3d::UnitZ(), height, on_plane);
+      const std::vector<Contact> found =
+          on_mesh(body, floor_of_squares(r.uniform(0.4, 1.5), height, r.uniform(0, 7), 0.3 * r.direction()));
+      expect_same_load(load_of(on_plane), load_of(found), std::string(line) + " " + std::to_string(n));
+    }
+  }
+}
+
+// In the corner between a floor and a wall a body has the contacts of both planes.
+TEST(SmoothWalls, InACornerOfTrianglesADiskTouchesBothPlanes) {
+  Random r(22);
+  const ContactCore core(made("smooth disk aspect .31 rounding .5"));
+  for (int n = 0; n < 100; ++n) {
+    PosedCore body;
+    body.pose(core, r.turn());
+    const double height = body.reach_along({0, 0, -1}) + 0.8 * core.radius,
+                 beside = body.reach_along({-1, 0, 0}) + 0.7 * core.radius;
+    std::vector<Contact> on_planes;
+    plane_contacts({&body}, Vector3d::UnitZ(), height, on_planes);
+    plane_contacts({&body}, Vector3d::UnitX(), beside, on_planes);
+    std::vector<MeshTriangle> corner;
+    const double far = 9;
+    const Vector3d ends[2] = {{-beside, -far, -height}, {-beside, far, -height}}, out(far, 0, 0), up(0, 0, far);
+    for (const Vector3d& way : {out, up}) {
+      corner.push_back({{ends[0], ends[1], ends[1] + way}, {&way == &out, false, false}});
+      corner.push_back({{ends[0], ends[1] + way, ends[0] + way}, {false, false, false}});
+    }
+    expect_same_load(load_of(on_planes), load_of(on_mesh(body, corner)), std::to_string(n));
+  }
+}
+
 // The triangles of a box are the box, whose corners have no radius.
 TEST(SmoothWalls, AMeshOfABoxIsTheBox) {
   Random r(12);
   const eccentra::shape::ConvexCore box = eccentra::shape::box_core({0.7, 0.9, 0.8});
   const ContactCore solid(box, 0.);
-  int with_edges = 0;
-  for (const RoundedHull& hull : {made("smooth cube rounding .2"), made("smooth box 1 2 3 rounding .3")}) {
+  int with_edges = 0, with_sides = 0;
+  for (const RoundedHull& hull :
+       {made("smooth cube rounding .2"), made("smooth box 1 2 3 rounding .3"),
+        made("smooth disk aspect .31 rounding .5"), made("smooth disk aspect 1 rounding .2")}) {
     const ContactCore core(hull);
     for (int n = 0; n < 300; ++n) {
       Pose pose = random_pose(core, solid, r, 0.9 * core.radius);
@@ -100,20 +175,22 @@ TEST(SmoothWalls, AMeshOfABoxIsTheBox) {
         }
         mesh.push_back(triangle);
       }
-      eccentra::contact::MeshManifold manifold;
-      std::vector<Contact> found;
-      for (const auto& touch : manifold.touches({&pose.a}, mesh))
-        found.push_back(touch.contact);
-      const Load a = load_of(expected), b = load_of(found);
-      EXPECT_LT((a.force - b.force).norm(), 1e-9 * (1 + a.force.norm())) << hull.name() << " " << n;
-      EXPECT_LT((a.torque - b.torque).norm(), 1e-9 * (1 + a.torque.norm())) << hull.name() << " " << n;
-      with_edges += std::any_of(expected.begin(), expected.end(), [&](const Contact& c) {
+      // A face or side of a disk that lies parallel on a face bears it anywhere (docs/rounded-bodies.md).
+      const Vector3d axis = (pose.b.rotation.transpose() * pose.a.rotation.col(2)).cwiseAbs();
+      if (core.is_disk() && (axis.maxCoeff() > 0.999999 || axis.minCoeff() < 1e-6))
+        continue;
+      expect_same_load(load_of(expected), load_of(on_mesh(pose.a, mesh)), hull.name() + " " + std::to_string(n));
+      with_sides += core.is_disk() && std::any_of(expected.begin(), expected.end(), [&](const Contact& c) {
+                      return eccentra::contact::feature_a(c.id) == core.axis_feature();
+                    });
+      with_edges += !core.is_disk() && std::any_of(expected.begin(), expected.end(), [&](const Contact& c) {
         return !c.elastic && eccentra::contact::feature_a(c.id) >= core.points &&
                eccentra::contact::feature_b(c.id) >= solid.points;
       });
     }
   }
   EXPECT_GT(with_edges, 100);
+  EXPECT_GT(with_sides, 10);
 }
 
 // On a pipe of very large radius a body stands as on a plane; on a thin one an edge touches with its middle.

@@ -157,15 +157,6 @@ void FixWallGranCluster::init() {
              "' has contacts of model hertz alone; expected model hertz, tangential history or off and cohesion off, "
              "or a "
              "cluster of spheres");
-  if (meshes_ && bodies_)
-    for (int id = 0; id < bodies_->shapes().size(); ++id)
-      if (bodies_->shapes().surface(id).hull && bodies_->shapes().surface(id).core.is_disk() && comm->me == 0)
-        error->warning(
-            FLERR, ("fix " + std::string(this->id) + " wall/gran/cluster: the disk '" + bodies_->shapes()[id].name() +
-                    "' touches meshes at 12 points of each rim alone: edges and corners of a mesh that stand "
-                    "out pass through its faces and its side, and it rolls as a polygon; use walls that are "
-                    "planes or cylinders where that matters")
-                       .c_str());
   near_list_stale_ = true;
 }
 

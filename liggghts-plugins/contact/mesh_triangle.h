@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Eccentra contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A triangle of a mesh, and several of them as one surface.
+#pragma once
+
+#include "shape/rounded_core.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace eccentra::contact {
+
+/// Corners from the body's centre [m]; edge k joins corners k and k + 1. An edge is active in one of the triangles that
+/// share it, and in none where a plane goes on across it.
+struct MeshTriangle {
+  std::array<Eigen::Vector3d, 3> corner; ///< from the body's centre [m]
+  std::array<bool, 3> edge_active;       ///< by the number of an edge
+  /// Unit, by the order of the corners.
+  Eigen::Vector3d normal() const;
+  /// The point closest to another.
+  Eigen::Vector3d closest(const Eigen::Vector3d& point) const;
+  /// Points closer than this are one [m].
+  double same_place() const;
+};
+
+/// Distance of `point` from the closest of the triangles [m] and the normal from there to the point.
+shape::CoreDistance distance_to(const std::vector<MeshTriangle>& triangles, const Eigen::Vector3d& point);
+
+/// The surface to which each triangle belongs, by the number of its first one. Neighbours belong to one where the edge
+/// between them is flat or stands out to the side of `seen_from`, and to two where it is the bottom of a corner.
+std::vector<int> surfaces_of(const std::vector<MeshTriangle>& triangles, const Eigen::Vector3d& seen_from);
+
+} // namespace eccentra::contact
