@@ -50,7 +50,7 @@ template <typename Sampler>
 RimPoint closest_on_arc(double low, double slope_low, double high, double slope_high, double angle,
                         const Sampler& sample) {
   constexpr double precision = 1e-13; // of slopes and angles
-  constexpr double last = 1e-8;       // Newton's next step after one of this is round-off
+  constexpr double last = 1e-6;       // what Newton's next step leaves after one of this is round-off
   constexpr int limit = 60;
   int kept = 0;
   bool final = false;
@@ -92,19 +92,24 @@ struct ArcExtreme {
   bool closest;   ///< the distance is least there
 };
 
-/// Adds all of them between two angles, in order, as far as they can be told apart in so many equal pieces of the arc.
-/// `sample.slope(angle)` gives the slope alone.
+/// Most pieces of an arc; slopes between them are found in one vector loop.
+constexpr int max_pieces = lane_width;
+
+/// Adds all of them between two angles, in order, as far as they can be told apart in so many equal pieces of the arc,
+/// at most max_pieces. `sample.slopes(low, step, n, slopes)` gives those at low + step .. low + n step; there is
+/// room for lane_width.
 template <typename Sampler>
 void extremes_on_arc(double low, double slope_low, double high, double slope_high, int pieces, const Sampler& sample,
                      std::vector<ArcExtreme>& extremes) {
-  const double step = (high - low) / pieces;
+  const double first = low, step = (high - low) / pieces;
+  double slopes[lane_width];
+  if (pieces > 1)
+    sample.slopes(low, step, pieces - 1, slopes);
   for (int k = 1; k <= pieces; ++k) {
-    const double next = k == pieces ? high : low + step;
+    const double next = k == pieces ? high : first + k * step;
     double slope_next = slope_high;
-    if (k < pieces) {
-      slope_next = sample.slope(next);
-      slope_next = slope_next == 0 ? 1e-300 : slope_next; // a least one there belongs to one piece
-    }
+    if (k < pieces)
+      slope_next = slopes[k - 1] == 0 ? 1e-300 : slopes[k - 1]; // a least one there belongs to one piece
     if (slope_low < 0 && slope_next > 0)
       extremes.push_back(
           {closest_on_arc(low, slope_low, next, slope_next, chord_root(low, slope_low, next, slope_next), sample),

@@ -24,10 +24,8 @@ namespace {
 constexpr double same_distance = 1e-9;
 /// Edges closer than this part of their reach may have passed each other.
 constexpr double may_have_crossed = 0.25;
-/// Where an arc of a disk's rim is closest and farthest is told apart in pieces of this part of the reach, and in no
-/// more than so many.
+/// Where an arc of a disk's rim is closest and farthest is told apart in pieces of this part of the reach.
 constexpr double resolved = 0.5;
-constexpr int max_pieces = 8;
 /// Centres closer than this part of the bounding radii: one body may have passed through the other without a contact.
 constexpr double passed_through = 0.25;
 /// From cores that touch to this part of the reach deep, contacts turn to the least axis.

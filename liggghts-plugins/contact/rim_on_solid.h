@@ -120,16 +120,40 @@ class RimOnSolid {
       found.rate *= inverse_radius_;
       return found;
     }
-    /// Slope of the distance along the rim at an angle [-].
-    double slope(double angle) const {
-      if (!core_.is_disk())
-        return (*this)(angle).slope;
-      const SmallTurn turn(angle);
-      return inverse_radius_ * slope_on_disk(core_.half, centre_ + turn.cosine * out_ + turn.sine * along_,
-                                             turn.cosine * along_ - turn.sine * out_);
+    /// Slopes of the distance along the rim at low + step .. low + count step [-]; `found` has room for lane_width.
+    void slopes(double low, double step, int count, double* found) const {
+      if (core_.is_disk())
+        slopes_on_disk(low, step, found);
+      else
+        for (int k = 0; k < count; ++k)
+          found[k] = (*this)(low + (k + 1) * step).slope;
     }
 
    private:
+    void slopes_on_disk(double low, double step, double* found) const {
+      double sine[lane_width], cosine[lane_width];
+      for (int k = 0; k < lane_width; ++k) {
+        const SmallTurn turn(low + (k + 1) * step);
+        sine[k] = turn.sine;
+        cosine[k] = turn.cosine;
+      }
+      const double radius = core_.half.x(), half_height = core_.half.z(), scale = inverse_radius_;
+      const double cx = centre_.x(), cy = centre_.y(), cz = centre_.z(), ox = out_.x(), oy = out_.y(), oz = out_.z(),
+                   ax = along_.x(), ay = along_.y(), az = along_.z();
+#pragma GCC ivdep
+      for (int k = 0; k < lane_width; ++k) {
+        const double x = cx + cosine[k] * ox + sine[k] * ax, y = cy + cosine[k] * oy + sine[k] * ay,
+                     z = cz + cosine[k] * oz + sine[k] * az;
+        const double x1 = cosine[k] * ax - sine[k] * ox, y1 = cosine[k] * ay - sine[k] * oy,
+                     z1 = std::copysign(1., z) * (cosine[k] * az - sine[k] * oz);
+        const double rho = std::sqrt(x * x + y * y), beside = rho - radius, above = std::fabs(z) - half_height;
+        const double rho1 = rho > 0 ? (x * x1 + y * y1) / (rho > 0 ? rho : 1.) : x1;
+        const bool corner = (beside > 0) & (above > 0), side = beside > above;
+        const double over = 1 / std::sqrt(corner ? beside * beside + above * above : 1.);
+        found[k] = scale * (corner ? over * (beside * rho1 + above * z1) : side ? rho1 : z1);
+      }
+    }
+
     const ContactCore& core_;
     Eigen::Vector3d centre_;
     double inverse_radius_;
@@ -141,22 +165,14 @@ class RimOnSolid {
   struct SmallTurn {
     double sine, cosine;
     explicit SmallTurn(double angle) {
+      // Products alone: quotients take most of the time of a loop over pieces.
+      constexpr double s3 = 1. / 6, s5 = s3 / 20, s7 = s5 / 42, s9 = s7 / 72, s11 = s9 / 110;
+      constexpr double c4 = 1. / 24, c6 = c4 / 30, c8 = c6 / 56, c10 = c8 / 90, c12 = c10 / 132;
       const double q = angle * angle;
-      sine = angle * (1 - q / 6 * (1 - q / 20 * (1 - q / 42 * (1 - q / 72 * (1 - q / 110)))));
-      cosine = 1 - q / 2 * (1 - q / 12 * (1 - q / 30 * (1 - q / 56 * (1 - q / 90 * (1 - q / 132)))));
+      sine = angle * (1 - q * (s3 - q * (s5 - q * (s7 - q * (s9 - q * s11)))));
+      cosine = 1 - q * (0.5 - q * (c4 - q * (c6 - q * (c8 - q * (c10 - q * c12)))));
     }
   };
-  static double slope_on_disk(const Eigen::Vector3d& half, const Eigen::Vector3d& p, const Eigen::Vector3d& along) {
-    const double square = p.x() * p.x() + p.y() * p.y(), z1 = p.z() < 0 ? -along.z() : along.z(),
-                 above = std::abs(p.z()) - half.z();
-    if (square <= half.x() * half.x() && above >= 0)
-      return z1;
-    const double rho = std::sqrt(square), beside = rho - half.x();
-    const double rho1 = rho > 0 ? (p.x() * along.x() + p.y() * along.y()) / rho : along.x();
-    if (beside > 0 && above > 0)
-      return (beside * rho1 + above * z1) / std::sqrt(beside * beside + above * above);
-    return beside > above ? rho1 : z1;
-  }
   // Derivatives by the angle: of the point `along`, of that -`out`.
   static void of_disk(const Eigen::Vector3d& half, const Eigen::Vector3d& p, const Eigen::Vector3d& along,
                       const Eigen::Vector3d& out, RimSample& found) {

@@ -144,7 +144,10 @@ template <typename Distance> class WallContacts {
       const shape::CoreDistance at = distance(point);
       return {{point, at}, at.normal.dot(rim.tangent(angle)) / rim.x.norm(), std::numeric_limits<double>::quiet_NaN()};
     }
-    double slope(double angle) const { return (*this)(angle).slope; }
+    void slopes(double low, double step, int count, double* found) const {
+      for (int k = 0; k < count; ++k)
+        found[k] = (*this)(low + (k + 1) * step).slope;
+    }
   };
 
   const PosedCore& posed_;
