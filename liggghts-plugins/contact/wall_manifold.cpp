@@ -5,12 +5,12 @@
 
 #include "contact/arc_minimum.h"
 #include "contact/hand_over.h"
+#include "contact/rim_on_solid.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace eccentra::contact {
 
@@ -60,11 +60,14 @@ template <typename Distance> class WallContacts {
         const double least = (at_[from].distance + at_[to].distance - core_.half.x() * step) / 2;
         if (least >= reach)
           continue;
-        const double unit = core_.half.x(), angle = k * step,
-                     slope_from = at_[from].normal.dot(rim.tangent(angle)) / unit,
-                     slope_to = at_[to].normal.dot(rim.tangent(angle + step)) / unit;
+        const auto slope_at = [&](int point, int number) {
+          const Vector3d along = ring_directions.cosine[number] * rim.y - ring_directions.sine[number] * rim.x;
+          return at_[point].normal.dot(along) / core_.half.x();
+        };
+        const double angle = k * step, slope_from = slope_at(from, k), slope_to = slope_at(to, k + 1);
         extremes_.clear();
-        extremes_on_arc(angle, slope_from, angle + step, slope_to, 1, Sample{rim, distance_}, extremes_);
+        extremes_on_arc(angle, slope_from, angle + step, slope_to, 1, Sample{rim, distance_, core_.half.x()},
+                        extremes_);
         if (extremes_.empty())
           continue;
         const ArcSpring spring({reach - at_[from].distance, reach - at_[to].distance}, {slope_from, slope_to},
@@ -139,10 +142,13 @@ template <typename Distance> class WallContacts {
   struct Sample {
     const Rim& rim;
     const Distance& distance;
+    double unit; ///< radius of the rim
     RimSample operator()(double angle) const {
-      const Vector3d point = rim.at(angle);
+      const double cosine = std::cos(angle), sine = std::sin(angle);
+      const Vector3d out = cosine * rim.x + sine * rim.y, along = cosine * rim.y - sine * rim.x;
+      const Vector3d point = rim.centre + out;
       const shape::CoreDistance at = distance(point);
-      return {{point, at}, at.normal.dot(rim.tangent(angle)) / rim.x.norm(), std::numeric_limits<double>::quiet_NaN()};
+      return {{point, at}, at.normal.dot(along) / unit, distance.rate(point, along, out) / unit};
     }
     void slopes(double low, double step, int count, double* found) const {
       for (int k = 0; k < count; ++k)
@@ -173,16 +179,35 @@ bool closest_to_axis(const Vector3d& from, const Vector3d& along, const Vector3d
   return true;
 }
 
-/// Radius vector of a point about the axis.
-Vector3d from_axis(const Vector3d& point, const CylinderWall& wall) {
-  const Vector3d r = point - wall.to_axis;
-  return r - r.dot(wall.direction) * wall.direction;
-}
+/// Distance of a point, and the second derivative of the distance along a circle: of the point `along` is the first
+/// derivative by the angle, minus `out` the second.
+struct PlaneDistance {
+  const Vector3d& normal;
+  double height; ///< of the body's centre
+  shape::CoreDistance operator()(const Vector3d& point) const { return {height + normal.dot(point), normal}; }
+  double rate(const Vector3d&, const Vector3d&, const Vector3d& out) const { return -normal.dot(out); }
+};
+struct CylinderDistance {
+  const CylinderWall& wall;
+  double side; ///< 1 outside of it, -1 inside
+  Vector3d from_axis(const Vector3d& r) const { return r - r.dot(wall.direction) * wall.direction; }
+  shape::CoreDistance operator()(const Vector3d& point) const {
+    const Vector3d radial = from_axis(point - wall.to_axis);
+    const double rho = radial.norm();
+    return {side * (rho - wall.radius),
+            rho > 0 ? Vector3d(side / rho * radial) : Vector3d(wall.direction.unitOrthogonal())};
+  }
+  double rate(const Vector3d& point, const Vector3d& along, const Vector3d& out) const {
+    const Vector3d radial = from_axis(point - wall.to_axis);
+    const double rho = radial.norm(), first = radial.dot(along) / rho;
+    return side * ((from_axis(along).squaredNorm() - first * first) / rho - radial.dot(out) / rho);
+  }
+};
 
 /// A wall that no edge of a body touches between its ends: a plane, or a cylinder from inside.
 template <class Distance>
 void flat_or_hollow(const ContactBody& body, const Distance& distance, std::vector<Contact>& contacts) {
-  WallContacts<const Distance> wall(body, distance, contacts);
+  WallContacts<Distance> wall(body, distance, contacts);
   if (!body.posed->core->is_disk()) {
     wall.take_points_alone();
     return;
@@ -195,30 +220,18 @@ void flat_or_hollow(const ContactBody& body, const Distance& distance, std::vect
 } // namespace
 
 void plane_contacts(const ContactBody& body, const Vector3d& normal, double height, std::vector<Contact>& contacts) {
-  const auto distance = [&](const Vector3d& p) { return shape::CoreDistance{height + normal.dot(p), normal}; };
-  flat_or_hollow(body, distance, contacts);
+  flat_or_hollow(body, PlaneDistance{normal, height}, contacts);
 }
 
 void hole_contacts(const ContactBody& body, const CylinderWall& cylinder, std::vector<Contact>& contacts) {
-  const auto distance = [&](const Vector3d& p) {
-    const Vector3d radial = from_axis(p, cylinder);
-    const double rho = radial.norm();
-    return shape::CoreDistance{cylinder.radius - rho,
-                               rho > 0 ? Vector3d(-radial / rho) : Vector3d(cylinder.direction.unitOrthogonal())};
-  };
-  flat_or_hollow(body, distance, contacts);
+  flat_or_hollow(body, CylinderDistance{cylinder, -1}, contacts);
 }
 
 void pipe_contacts(const ContactBody& body, const CylinderWall& cylinder, std::vector<Contact>& contacts) {
-  const auto distance = [&](const Vector3d& p) {
-    const Vector3d radial = from_axis(p, cylinder);
-    const double rho = radial.norm();
-    return shape::CoreDistance{rho - cylinder.radius,
-                               rho > 0 ? Vector3d(radial / rho) : Vector3d(cylinder.direction.unitOrthogonal())};
-  };
+  const CylinderDistance distance{cylinder, 1};
   const PosedCore& posed = *body.posed;
   const ContactCore& core = *posed.core;
-  WallContacts<decltype(distance)> wall(body, distance, contacts);
+  WallContacts<CylinderDistance> wall(body, distance, contacts);
   wall.take_points();
   double t = 0;
   for (std::size_t k = 0; k < core.edges.size(); ++k) {
