@@ -53,13 +53,14 @@ in_root() {
 # copy_tree FOLDER: the tracked files as they stand; what was built there stays. Only what differs is replaced, with the time of now: builds go by
 # times, and a file may be older than what was built from its predecessor.
 copy_tree() {
-  local new file
+  local new file there
   mkdir -p "$1"
   new=$(mktemp -d -p "$(dirname "$1")") # beside it: on the same disk
   git ls-files -z | tar --null --ignore-failed-read -cf - -T - | tar -xf - -C "$new"
-  while IFS= read -r -d '' file; do
+  mapfile -d '' -t there < <(cd "$1" && find . -mindepth 1 ! -path './build*' -print0) # all of it before any of it is gone
+  for file in "${there[@]}"; do
     [ -e "$new/$file" ] || [ -L "$new/$file" ] || rm -rf "${1:?}/$file"
-  done < <(cd "$1" && find . -mindepth 1 ! -path './build*' -print0)
+  done
   while IFS= read -r -d '' file; do
     if ! cmp -s "$new/$file" "$1/$file" || [ "$(stat -c %a "$new/$file")" != "$(stat -c %a "$1/$file")" ]; then
       mkdir -p "$(dirname "$1/$file")"

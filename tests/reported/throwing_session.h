@@ -22,6 +22,7 @@
 #include <vector>
 
 // LIGGGHTS ends the process with its errors; here they are exceptions, so that one process tries many.
+// NOLINTBEGIN(misc-definitions-in-headers): one source file of a program includes this
 namespace LAMMPS_NS {
 void Error::all(const char*, int, const char* sentence) {
   throw std::runtime_error(sentence);
@@ -36,6 +37,7 @@ void Error::fix_error(const char*, int, Fix*, const char*, const char* sentence)
   throw std::runtime_error(sentence);
 }
 } // namespace LAMMPS_NS
+// NOLINTEND(misc-definitions-in-headers)
 
 namespace eccentra::test {
 
