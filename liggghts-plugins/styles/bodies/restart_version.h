@@ -8,7 +8,7 @@
 namespace eccentra::styles {
 
 /// Raise it with every change of what clusters, their contacts or their walls keep in restart files.
-constexpr int restart_format = 3;
+constexpr int restart_format = 4;
 /// Stands at the head of each of these records: letters in the upper bytes, the format in the lowest.
 constexpr int restart_letters = 0x45434c00, restart_mark = restart_letters | restart_format;
 
