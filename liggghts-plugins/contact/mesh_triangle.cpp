@@ -48,7 +48,7 @@ Vector3d MeshTriangle::normal() const {
 }
 
 Vector3d MeshTriangle::closest(const Vector3d& point) const {
-  const Vector3d n = normal();
+  const Vector3d n = (corner[1] - corner[0]).cross(corner[2] - corner[0]); // of any length: this is called most
   bool over = true;
   double least = 0;
   Vector3d best = point;
@@ -64,7 +64,7 @@ Vector3d MeshTriangle::closest(const Vector3d& point) const {
     }
     over = false;
   }
-  return over ? Vector3d(point - n.dot(point - corner[0]) * n) : best;
+  return over ? Vector3d(point - n.dot(point - corner[0]) / n.squaredNorm() * n) : best;
 }
 
 double MeshTriangle::same_place() const {
