@@ -88,6 +88,15 @@ void check_orientation(const FluidOptions& options) {
   }
 }
 
+void check_dispersion(const FluidOptions& options, const std::set<std::string>& said) {
+  if (options.turbulent_dispersion && options.drag == "none")
+    refuse("keyword 'turbulent_dispersion': 'eddy_interaction' moves particles through their drag, but there is none; "
+           "add drag NAME");
+  if (said.count("dispersion_seed") && !options.turbulent_dispersion)
+    refuse("keyword 'dispersion_seed' is for a random walk, but 'turbulent_dispersion' is none; add turbulent_dispersion "
+           "eddy_interaction");
+}
+
 template <template <class> class Torque> std::unique_ptr<Effect> make_torque(const Rheology& fluid) {
   return with_stress(
       fluid, [&](auto stress) -> std::unique_ptr<Effect> { return std::make_unique<Torque<decltype(stress)>>(fluid); });
@@ -136,6 +145,10 @@ FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int a
       options.pressure_gradient = reader.on_off();
     } else if (keyword == "viscous_stress") {
       options.viscous_stress = reader.on_off();
+    } else if (keyword == "turbulent_dispersion") {
+      options.turbulent_dispersion = reader.choice({"eddy_interaction", "none"}) != "none";
+    } else if (keyword == "dispersion_seed") {
+      options.dispersion_seed = reader.count(1, "a seed of the random walk");
     } else if (keyword == "screen") {
       options.screen.tolerance = reader.between(0, 1, "the tolerance, a share of weight or drag");
     } else if (keyword == "screen_steps") {
@@ -147,8 +160,8 @@ FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int a
     } else {
       reader.unknown("rheology, density, drag, void_reynolds, power_law_factor, yield_weight, yield_form, shear_lift, "
                      "rotational_lift, drag_torque, oriented, strain_torque, pitching_torque, pressure_gradient, "
-                     "viscous_stress, buoyancy, sphericity, screen, "
-                     "screen_steps, screen_recheck");
+                     "viscous_stress, buoyancy, turbulent_dispersion, dispersion_seed, sphericity, screen, screen_steps, "
+                     "screen_recheck");
     }
   }
   if (options.rheology.consistency == 0.0)
@@ -161,6 +174,7 @@ FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int a
         refuse("keyword '{}' says how to screen, but 'screen' is missing; add screen TOLERANCE", word);
     weigh_stress(options, said);
     check_orientation(options);
+    check_dispersion(options, said);
     return options;
   }
   // A screen judges every effect that the script has not itself decided on.
@@ -180,6 +194,7 @@ FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int a
     options.pitching_torque = options.pitching_torque || (!said.count("pitching_torque") && options.drag_torque);
   }
   check_orientation(options);
+  check_dispersion(options, said);
   weigh_stress(options, said);
   return options;
 }

@@ -29,6 +29,8 @@ struct FluidOptions {
   bool buoyancy = true;                   ///< -rho_f g V
   bool pressure_gradient = false;         ///< -grad p_rgh V
   bool viscous_stress = false;            ///< div tau V
+  bool turbulent_dispersion = false;      ///< the velocity seen has the fluctuation of an eddy
+  int dispersion_seed = 1;                ///< of that walk
   ScreenOptions screen;                   ///< tolerance 0: none
   std::vector<double> sphericity = {1.0}; ///< of plain spheres: one value, or one per atom type
 };

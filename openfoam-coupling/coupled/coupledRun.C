@@ -196,6 +196,8 @@ link::FluidTerms coupledRun::agree(const link::DemTerms& dem) {
   terms.time_step = interval_;
   terms.domain = extentsOf(mesh_);
   terms.offered = exchange::particleExchange::offered();
+  if (!flow_->turbulence())
+    terms.offered &= ~unsigned(link::kTurbulence);
   terms.fluid_density = flow_->rho();
   terms.rheology = statedRheology(flow_->rheology(), flow_->rho());
   stateGravity(mesh_, terms);

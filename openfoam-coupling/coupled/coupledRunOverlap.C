@@ -5,6 +5,7 @@
 #include "coupled/coupledRun.H"
 
 #include "coupled/appliedForces.H"
+#include "coupled/presentFlow.H"
 #include "support/processGuards.H"
 #include "support/stopwatch.H"
 
@@ -76,9 +77,8 @@ void coupledRun::exchangeAhead(const link::CouplingStep& couplingStep, const lin
   for (const auto& [quantity, sign] : exchange::kForceDensities)
     if (!samples[quantity])
       fields.density[quantity] = nullptr;
-  const tmp<volVectorField> velocity(flow_->velocityOfFluxes());
-  fields.velocity = &velocity();
-  fields.fraction = &flow_->alpha();
+  const presentFlow read(*flow_, couplingStep.needed);
+  read.give(fields);
   const scalarField assumedSolid(solid_);
   const bool start = first && time_.value() <= SMALL;
   // What the flow gives reaches the particles an interval later still: it is told as it is

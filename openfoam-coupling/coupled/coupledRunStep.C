@@ -4,6 +4,7 @@
 #include "coupled/coupledRun.H"
 
 #include "coupled/appliedForces.H"
+#include "coupled/presentFlow.H"
 #include "flow/caseFiles.H"
 #include "flow/feedbackShares.H"
 #include "flow/flowMeasures.H"
@@ -229,9 +230,8 @@ void coupledRun::exchangeInTurn(const link::CouplingStep& couplingStep, const li
   checkFinite(couplingStep);
 
   exchange::FlowFields fields;
-  const tmp<volVectorField> velocity(flow_->velocityOfFluxes());
-  fields.velocity = &velocity();
-  fields.fraction = &flow_->alpha();
+  const presentFlow present(*flow_, requests_.asked());
+  present.give(fields);
   applied.complete(flow_->alpha(), time_.deltaTValue() / interval_, fields);
   fields.share = &forceShare;
   exchange_->sample(fields, particles, samples);

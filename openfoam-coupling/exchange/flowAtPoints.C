@@ -52,6 +52,11 @@ constexpr PointQuantity kPointQuantities[] = {
          for (int c = 0; c < 3; ++c)
            values[3 * r + c] = gradient(c, r);
      }},
+    {link::kTurbulence, false,
+     [](const flowAtPoints& flow, const flowAtPoints::Place& place, double* values) {
+       values[0] = flow.turbulence(0)[place.cell];
+       values[1] = flow.turbulence(1)[place.cell];
+     }},
 };
 
 bool needsGradU(unsigned asked) {
@@ -71,7 +76,7 @@ unsigned flowAtPoints::offered() {
 flowAtPoints::flowAtPoints(const fvMesh& mesh, const FlowFields& flow, unsigned asked, double fractionFloor,
                            double minFraction, flowReading* reading, const touchedCells* touched)
     : mesh_(mesh), asked_(asked & offered()), fractionFloor_(fractionFloor), minFraction_(minFraction),
-      fraction_(asked & (link::kVelocity | link::kFraction) ? flow.fraction : nullptr) {
+      fraction_(asked & (link::kVelocity | link::kFraction) ? flow.fraction : nullptr), turbulence_(flow.turbulence) {
   if (needsGradU(asked))
     gradU_ = fvc::grad(*flow.velocity);
   if (asked & link::kVelocity) {

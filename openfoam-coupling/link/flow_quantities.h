@@ -18,14 +18,15 @@ enum Quantity : unsigned {
   kStressDivergence = 1u << 3, ///< div tau [N/m3], viscous stress of the fluid
   kVorticity = 1u << 4,        ///< curl u_f [1/s]
   kVelocityGradient = 1u << 5, ///< d u_r/d x_c by rows [1/s]
+  kTurbulence = 1u << 6,       ///< kinetic energy k [m2/s2] and dissipation epsilon [m2/s3] of a turbulence model
 };
 
-/// One quantity: its bit, the word for it in scripts and reports, doubles per particle (1 a scalar, 3 a vector, 9 a
-/// tensor by rows), and the value of each where the fluid is clear and at rest.
+/// One quantity: its bit, the word for it in scripts and reports, doubles per particle (1 a scalar, 2 a pair, 3 a
+/// vector, 9 a tensor by rows), and the value of each where the fluid is clear and at rest.
 struct FlowQuantity {
   Quantity bit;     ///< place in a set
   const char* name; ///< in scripts and reports
-  int columns;      ///< doubles per particle: 1, 3 or 9
+  int columns;      ///< doubles per particle: 1, 2, 3 or 9
   double at_rest;   ///< of each of them
 };
 
@@ -38,6 +39,7 @@ inline constexpr FlowQuantity kFlowQuantities[] = {
     {kStressDivergence, "stress_divergence", 3, 0.0},
     {kVorticity, "vorticity", 3, 0.0},
     {kVelocityGradient, "velocity_gradient", 9, 0.0},
+    {kTurbulence, "turbulence", 2, 0.0},
 };
 inline constexpr int kFlowQuantityCount = sizeof kFlowQuantities / sizeof kFlowQuantities[0];
 /// The set of all quantities.
@@ -102,6 +104,8 @@ class FluidSamples : public PerQuantity<double*> {
   using Vectors = double (*)[3];
   /// One value per atom.
   using Scalars = double*;
+  /// Rows of two values.
+  using Pairs = double (*)[2];
   /// Rows of nine components.
   using Tensors = double (*)[9];
 
@@ -117,6 +121,8 @@ class FluidSamples : public PerQuantity<double*> {
   Vectors vorticity() const { return rows<kVorticity>(); }
   /// d u_r/d x_c by rows [1/s].
   Tensors velocity_gradient() const { return rows<kVelocityGradient>(); }
+  /// k [m2/s2] and epsilon [m2/s3].
+  Pairs turbulence() const { return rows<kTurbulence>(); }
 
  private:
   template <Quantity bit> auto rows() const -> double (*)[columns_of(bit)] {

@@ -101,10 +101,12 @@ std::string disagreement(const DemTerms& dem, const FluidTerms& fluid) {
   if (const std::string text = extents_disagreement(dem.domain, fluid.domain); !text.empty())
     return text;
   if (const unsigned missing = dem.needed & ~fluid.offered; missing != 0)
-    return sentence(
-        "the closures need %s of the flow but this solver does not offer that: drop the effect that needs it from fix "
-        "fluid/force",
-        names_of(missing).c_str());
+    return missing == kTurbulence
+               ? std::string("turbulent_dispersion of fix fluid/force needs the turbulence of the flow but this solver "
+                             "computes a laminar one: choose a turbulence model there, or drop the word")
+               : sentence("the closures need %s of the flow but this solver does not offer that: drop the effect that "
+                          "needs it from fix fluid/force",
+                          names_of(missing).c_str());
   if (dem.fluid_density > 0 && !same(dem.fluid_density, fluid.fluid_density))
     return sentence("the fluid's density is %g kg/m3 in fix fluid/force but %g kg/m3 in the solver: make both the same",
                     dem.fluid_density, fluid.fluid_density);

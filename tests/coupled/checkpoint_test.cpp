@@ -133,14 +133,28 @@ TEST(Checkpoint, ResumableScriptOfClustersGoesOnWithTheSameDigits) {
   expect_same_digits(stirred_box(kWords, kSteps, true, true, true), "resumable_clusters", 1);
 }
 
-// Ranks change the order of sums, and with it the last digits, which contacts carry on.
-TEST(Checkpoint, AnyNumberOfRanksGoesOnToRoundOff) {
-  constexpr double kRoundOff = 1e-9;
+namespace {
+
+/// Turbulence whose eddies move the particles; the box stirs it.
+BoxCase turbulent_box() {
   BoxCase box = stirred_box(kWords, kSteps, false);
+  box.turbulence = "kEpsilon";
+  box.viscosity = 0.01;
+  const std::string drag = "drag chien";
+  box.script.replace(box.script.find(drag), drag.size(), "drag chien turbulent_dispersion eddy_interaction");
+  const std::string mud = "herschel_bulkley 0 0.05 1";
+  box.script.replace(box.script.find(mud), mud.size(), "herschel_bulkley 0 0.01 1");
+  return box;
+}
+
+/// What a checkpoint of two ranks leads to on one and on three. Ranks change the order of sums, and with it the last
+/// digits, which contacts carry on.
+void expect_round_off(BoxCase box, const std::string& name) {
+  constexpr double kRoundOff = 1e-9;
   // Where the linear solvers stop depends on the ranks, too.
   box.tolerance = 1e-14;
   box.coupling += " tolerance 1e-14;";
-  const Outcome outcome = run(box, "other_ranks", 2);
+  const Outcome outcome = run(box, name, 2);
   ASSERT_EQ(outcome.status, 0) << outcome.text;
   const fs::path folder = outcome.folder;
   const std::vector<double> straight = numbers_in(folder / "end.bodies");
@@ -170,6 +184,29 @@ TEST(Checkpoint, AnyNumberOfRanksGoesOnToRoundOff) {
   options.directory = folder;
   ASSERT_EQ(run_program({"decomposePar", "-force", "-time", "0"}, options).status, 0);
   expect_same(3);
+}
+
+} // namespace
+
+TEST(Checkpoint, AnyNumberOfRanksGoesOnToRoundOff) {
+  expect_round_off(stirred_box(kWords, kSteps, false), "other_ranks");
+}
+
+TEST(Checkpoint, TurbulenceAndItsEddiesGoOnWithTheSameDigits) {
+  const BoxCase box = turbulent_box();
+  expect_same_digits(box, "turbulent", 1);
+  expect_same_digits(box, "turbulent_ranks", 2);
+  // The eddies are at work: without them the bodies come elsewhere.
+  BoxCase still = box;
+  const std::string eddies = " turbulent_dispersion eddy_interaction";
+  still.script.erase(still.script.find(eddies), eddies.size());
+  const Outcome outcome = run(still, "turbulent_without_eddies");
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_NE(result_of(outcome.folder).bodies, result_of("turbulent").bodies);
+}
+
+TEST(Checkpoint, TurbulenceOnAnyNumberOfRanksGoesOnToRoundOff) {
+  expect_round_off(turbulent_box(), "other_ranks_turbulent");
 }
 
 TEST(Checkpoint, DamagedOnesArePassedOver) {

@@ -86,6 +86,20 @@ std::string read_all(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+/// A model of k and epsilon and its fields, of a turbulence that a stirrer could have left.
+void write_turbulence(const BoxCase& box, const fs::path& folder) {
+  write(folder / "constant/turbulenceProperties", "dictionary",
+        "simulationType RAS; RAS { RASModel " + box.turbulence + "; turbulence on; printCoeffs off; }");
+  const auto field = [&](const char* name, const char* dimensions, const char* value, const char* at_walls) {
+    write(folder / "0" / name, "volScalarField",
+          std::string("dimensions ") + dimensions + "; internalField uniform " + value + "; " +
+              boundary(box, std::string(at_walls) + "; value uniform " + value));
+  };
+  field("k", "[0 2 -2 0 0 0 0]", "0.01", "kqRWallFunction");
+  field("epsilon", "[0 2 -3 0 0 0 0]", "0.05", "epsilonWallFunction");
+  field("nut", "[0 2 -1 0 0 0 0]", "0", "nutkWallFunction");
+}
+
 void write_case(const BoxCase& box, const fs::path& folder) {
   write(folder / "system/blockMeshDict", "dictionary", mesh_dictionary(box));
   std::ostringstream control, transport, solution;
@@ -96,9 +110,11 @@ void write_case(const BoxCase& box, const fs::path& folder) {
         "ddtSchemes { default " + box.time_scheme +
             "; } gradSchemes { default Gauss linear; } interpolationSchemes { default linear; } "
             "snGradSchemes { default corrected; } laplacianSchemes { default Gauss linear corrected; } "
-            "divSchemes { default none; div(phi,U) Gauss linear; div((nuEff*dev2(T(grad(U))))) Gauss linear; }");
+            "divSchemes { default none; div(phi,U) Gauss linear; div((nuEff*dev2(T(grad(U))))) Gauss linear; " +
+            (box.turbulence.empty() ? "}"
+                                    : R"("div\(alphaPhi,(k|epsilon)\)" Gauss upwind; } wallDist { method meshWave; })"));
   solution << "solvers { \"(p|pFinal)\" { solver PCG; preconditioner DIC; relTol 0; tolerance " << box.tolerance
-           << "; } \"(U|UFinal)\" { solver PBiCGStab; preconditioner DILU; relTol 0; tolerance " << box.tolerance
+           << "; } \"(U|k|epsilon)(Final)?\" { solver PBiCGStab; preconditioner DILU; relTol 0; tolerance " << box.tolerance
            << "; } } PIMPLE { nOuterCorrectors 1; momentumPredictor yes; nCorrectors " << box.correctors << "; }";
   write(folder / "system/fvSolution", "dictionary", solution.str());
   write(folder / "system/decomposeParDict", "dictionary", "numberOfSubdomains 2; method simple; coeffs { n (1 1 2); }");
@@ -116,6 +132,8 @@ void write_case(const BoxCase& box, const fs::path& folder) {
         "dimensions [0 1 -1 0 0 0 0]; internalField uniform (0 0 0); " + boundary(box, "noSlip"));
   write(folder / "0/p", "volScalarField",
         "dimensions [0 2 -2 0 0 0 0]; internalField uniform 0; " + boundary(box, "zeroGradient"));
+  if (!box.turbulence.empty())
+    write_turbulence(box, folder);
   std::ofstream(folder / "in.dem") << box.script;
   std::ofstream(folder / "bodies") << box.bodies;
 }

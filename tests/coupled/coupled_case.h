@@ -16,6 +16,7 @@ struct BoxCase {
   bool periodic[3] = {true, true, true}; ///< else walls
   double step = 2e-3;                    ///< of the fluid [s]
   double viscosity = 0.01;               ///< Newtonian [Pa s]
+  std::string turbulence;                ///< RAS model with its usual wall functions; empty: laminar
   std::string rheology;                  ///< entries of transportProperties in place of the Newtonian ones
   double density = 1000;
   std::string time_scheme = "backward";

@@ -53,6 +53,16 @@ TEST(CoupledRefusals, RunThatIsNoWholeNumberOfIntervals) {
   expect_refusal(box, "run", "a run of 90 steps is not a whole number of intervals of 40");
 }
 
+TEST(CoupledRefusals, EddiesOfALaminarFlow) {
+  BoxCase box = one_sphere();
+  box.script = replaced(box.script, "drag chien", "drag chien turbulent_dispersion eddy_interaction");
+  expect_refusal(box, "eddies", "turbulent_dispersion of fix fluid/force needs the turbulence of the flow");
+  box.turbulence = "kEpsilon";
+  const Outcome outcome = run(box, "eddies_of_a_model");
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("asked for velocity fraction turbulence;"), std::string::npos) << outcome.text;
+}
+
 TEST(CoupledRefusals, DensityOfAnotherFluid) {
   BoxCase box = one_sphere();
   box.density = 1200;

@@ -48,7 +48,7 @@ STUDIES = {
     "rounding": (["--scenes", "heap", "--bodies", "cube", "--seeds", "1"], {
         "--scenes": ["drum"], "--bodies": ["disk"], "--seeds": ["2"], "--quick": []}, ()),
     "solver-cost": ([], {"--cells": ["4 24 10"], "--length": ["0.2"], "--steps": ["3"], "--turns": ["1"], "--pressure": ["pcg"],
-                         "--viscosity": ["strainRate"], "--quick": []}, ()),
+                         "--viscosity": ["strainRate"], "--turbulence": ["kEpsilon"], "--quick": []}, ()),
     "link-cost": ([], {"--parts": ["ranks"], "--turns": ["2"], "--quick": []}, ()),
     "cluster-speed": (["--scenes", "settled", "--shapes", "cube:8", "--repeat", "1"], {
         "--scenes": ["drum"], "--shapes": ["cube:27"], "--rounded": ["disk:0.3"], "--bodies": ["70"], "--repeat": ["2"], "--portable": ["OTHER"],

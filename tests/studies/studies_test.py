@@ -706,7 +706,7 @@ class Scripts(unittest.TestCase):
                 ("cluster-speed", ["--quick", "--bodies", "20", "--scenes", "settled", "--shapes", "cube:8"], "cluster-speed.csv", "bin/eccentra-dem"),
                 ("compare-peers", ["--quick", "--codes", "ours,stock", "--scenes", "drop", "--shapes", "cube 8"], "compare-peers.csv", "bin/eccentra-dem"),
                 ("closure-cost", ["--quick"], "closure-cost.csv", "tests/closures_benchmark"),
-                ("solver-cost", ["--quick", "--viscosity", "strainRate", "--pressure", "gamg,pcgGamg"], "cost.csv", "tests/openfoam_coupled_cost"),
+                ("solver-cost", ["--quick", "--viscosity", "strainRate", "--pressure", "gamg,pcgGamg", "--turbulence", "laminar,kEpsilon"], "cost.csv", "tests/openfoam_coupled_cost"),
                 ("link-cost", ["--quick", "--parts", "cost"], "coupled.csv", "tests/exchange_benchmark")):
             if not (BUILD / needs).is_file():
                 continue
@@ -727,7 +727,8 @@ class Scripts(unittest.TestCase):
                     self.assertTrue(math.isfinite(float(row["times_as_long"])))  # of so few steps it is noise
                     self.assertIn("memory per rounded cube of 0.15: ", said.stdout)
                 if script == "solver-cost":
-                    self.assertEqual([row["pressure"] for row in found], ["gamg", "pcgGamg"])
+                    self.assertEqual([(row["pressure"], row["model"]) for row in found],
+                                     [(pressure, model) for pressure in ("gamg", "pcgGamg") for model in ("laminar", "kEpsilon")])
                     self.assertTrue(all(float(row["iterations"]) >= 1 for row in found))
 
     def test_clusters_that_stick_form_a_steeper_heap(self):

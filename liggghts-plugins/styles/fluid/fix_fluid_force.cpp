@@ -55,6 +55,8 @@ FixFluidForce::FixFluidForce(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg,
   if (options_.screen.tolerance > 0.0)
     screen_ = std::make_unique<closures::EffectScreen>(options_.screen, effects_);
   geometry_.set_sphericity(options_.sphericity);
+  if (options_.turbulent_dispersion)
+    eddies_ = std::make_unique<closures::EddyInteraction>(options_.dispersion_seed);
 
   vector_flag = 1;
   size_vector = kDimension * static_cast<int>(std::size(kEffectOrder));
@@ -70,6 +72,8 @@ FixFluidForce::FixFluidForce(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg,
   arrays_.declare(kImpulse, kDimension, true);
   arrays_.declare(kCoefficient, 1, true);
   arrays_.declare(kLast, kDimension + 1, true);
+  if (eddies_)
+    arrays_.declare(kEddies, closures::kEddyColumns, true);
   switch_effects(std::vector<bool>(effects_.size(), true));
   atom->add_callback(0);
   atom->add_callback(1);
@@ -89,11 +93,16 @@ FixFluidForce* FixFluidForce::find(LAMMPS* lmp) {
 
 void FixFluidForce::switch_effects(const std::vector<bool>& on) {
   acting_ = on;
-  needs_ = 0;
-  for (std::size_t e = 0; e < effects_.size(); ++e)
-    if (acting_[e])
-      needs_ |= effects_[e]->needs();
+  needs_ = quantities_of(on);
   declare_arrays();
+}
+
+unsigned FixFluidForce::quantities_of(const std::vector<bool>& on) const {
+  unsigned all = 0;
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    if (on[e])
+      all |= effects_[e]->needs();
+  return eddies_ && (all & link::kVelocity) ? all | closures::EddyInteraction::kNeeds : all;
 }
 
 void FixFluidForce::declare_arrays() {
@@ -192,7 +201,7 @@ void FixFluidForce::setup(int) {
   first_of_run_ = update->ntimestep;
   run_began_ = MPI_Wtime();
   std::fill(seconds_.begin(), seconds_.end(), 0.0);
-  visits_ = 0.0;
+  eddy_seconds_ = visits_ = 0.0;
   if (!reported_)
     report_effects();
   reported_ = true;
@@ -214,12 +223,12 @@ void FixFluidForce::pre_initial_integrate() {
     coefficient[i] -= pending_ * last[i][kDimension];
   }
   elapsed_ -= pending_;
-  apply(0.5 * update->dt);
+  apply(0.5 * update->dt, 0.0);
   pending_ = 0.0;
 }
 
 void FixFluidForce::pre_final_integrate() {
-  apply(update->dt);
+  apply(update->dt, update->dt);
   pending_ = 0.5 * update->dt;
   if (screen_)
     follow_screen();
@@ -255,8 +264,21 @@ closures::HalfStep FixFluidForce::make_half_step(double interval) {
   return half_step;
 }
 
-void FixFluidForce::apply(double interval) {
-  const closures::HalfStep half_step = make_half_step(interval);
+void FixFluidForce::see_eddies(closures::HalfStep& half_step, double interval) {
+  if (!eddies_ || !(needs_ & link::kTurbulence))
+    return;
+  const double before = MPI_Wtime();
+  auto* eddies = reinterpret_cast<closures::Eddy*>(arrays_.data(kEddies));
+  eddies_->age(half_step, interval, atom->tag, update->ntimestep, eddies);
+  seen_.resize(kDimension * std::size_t(half_step.count));
+  closures::EddyInteraction::see(half_step, eddies, reinterpret_cast<double(*)[3]>(seen_.data()));
+  half_step.samples[link::kVelocity] = seen_.data();
+  eddy_seconds_ += MPI_Wtime() - before;
+}
+
+void FixFluidForce::apply(double interval, double ageing) {
+  closures::HalfStep half_step = make_half_step(interval);
+  see_eddies(half_step, ageing);
   std::fill_n(arrays_.data(kLast), (kDimension + 1) * std::size_t(half_step.count), 0.0);
   elapsed_ += interval;
   if (screen_ && screen_->sample_now()) {

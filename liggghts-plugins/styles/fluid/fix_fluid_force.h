@@ -3,6 +3,7 @@
 // Fix style fluid/force: the closures that the script asks for, applied to every particle at every DEM step.
 #pragma once
 
+#include "closures/eddy_interaction.h"
 #include "closures/effect.h"
 #include "closures/effect_screen.h"
 #include "closures/fluid_options.h"
@@ -89,19 +90,26 @@ class FixFluidForce : public LAMMPS_NS::Fix {
 
  private:
   /// Arrays of samples have the places of their quantities. The numbers stand in restart files.
-  enum ArrayId : unsigned { kImpulse = 8, kCoefficient = 9, kLast = 10 };
+  enum ArrayId : unsigned { kImpulse = 8, kCoefficient = 9, kLast = 10, kEddies = 11 };
   static_assert(link::kFlowQuantityCount <= kImpulse, "samples have numbers below those of the other arrays");
   link::FluidSamples sample_arrays();
   closures::HalfStep make_half_step(double interval);
+  /// Where the flow is turbulent for the particles: ages their eddies by `interval` [s], and lets the closures see the
+  /// velocity with the fluctuation.
+  void see_eddies(closures::HalfStep& half_step, double interval);
+  /// Quantities that the effects of this set read, `on` by their numbers.
+  unsigned quantities_of(const std::vector<bool>& on) const;
   /// Sets which effects act, and the quantities and arrays that they need.
   void switch_effects(const std::vector<bool>& on);
   void declare_arrays();
-  void apply(double interval);
+  /// Forces over `interval` [s]; eddies age by `ageing` [s].
+  void apply(double interval, double ageing);
   void follow_screen();
   void prepare_measurement();
   std::vector<double> nanoseconds_per_visit();
   void report_effects();
   void report_ranges();
+  void report_eddies(const closures::HalfStep& half_step);
   void report_cost();
   void print(const std::string& text);
 
@@ -117,6 +125,9 @@ class FixFluidForce : public LAMMPS_NS::Fix {
   bool awaits_samples_ = false;
   ParticleGeometry geometry_;
   AtomArrays arrays_;
+  std::unique_ptr<closures::EddyInteraction> eddies_; ///< null without turbulent_dispersion
+  std::vector<double> seen_;                          ///< velocity with the fluctuation; scratch
+  double eddy_seconds_ = 0.0;                         ///< spent on it since the last report
   std::vector<double*> rows_; ///< array_atom: last force of each atom
   std::vector<std::string> sources_;
   unsigned needs_ = 0;

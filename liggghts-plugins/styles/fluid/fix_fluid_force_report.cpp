@@ -42,6 +42,8 @@ void FixFluidForce::report_effects() {
       continue;
     text += std::string(on++ ? ", " : " ") + effects_[e]->name();
   }
+  if (eddies_)
+    text += ", turbulent_dispersion";
   text += on ? "; asks the flow for" : " none; asks the flow for";
   const int doubles = link::columns_of_set(needs_);
   text += (doubles ? " " : "") + link::names_of(needs_);
@@ -54,6 +56,7 @@ void FixFluidForce::report_effects() {
 
 std::vector<double> FixFluidForce::nanoseconds_per_visit() {
   std::vector<double> sums = seconds_;
+  sums.push_back(eddy_seconds_);
   sums.push_back(visits_);
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, world);
   const double visits = sums.back();
@@ -87,8 +90,7 @@ void FixFluidForce::follow_screen() {
 void FixFluidForce::prepare_measurement() {
   measurement_due_ = true;
   awaits_samples_ = true;
-  for (const auto& effect : effects_)
-    needs_ |= effect->needs();
+  needs_ |= quantities_of(std::vector<bool>(effects_.size(), true));
   declare_arrays();
 }
 
@@ -127,11 +129,37 @@ void FixFluidForce::report_ranges() {
         error->warning(FLERR, text);
     }
   }
+  if (eddies_)
+    report_eddies(half_step);
+}
+
+void FixFluidForce::report_eddies(const closures::HalfStep& half_step) {
+  if (!half_step.samples.turbulence())
+    return;
+  LAMMPS_NS::bigint larger[2] = {0, 0};
+  for (int i = 0; i < half_step.count; ++i) {
+    if (!(half_step.mask[i] & groupbit))
+      continue;
+    const double* turbulence = half_step.samples.turbulence()[i];
+    const closures::EddyScales scales = closures::eddy_scales(turbulence[0], turbulence[1]);
+    larger[0] += scales.speed > 0.0 && 2.0 * half_step.radius[i] > scales.length;
+    ++larger[1];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, larger, 2, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (larger[0] == 0)
+    return;
+  range_warned_ = true;
+  if (comm->me == 0)
+    error->warning(FLERR, ("fix fluid/force '" + std::string(id) + "': turbulent_dispersion moves " +
+                           std::to_string(larger[0]) + " of " + std::to_string(larger[1]) +
+                           " particles too far: they are larger than the eddies about them, whose whole fluctuation "
+                           "they see (docs/turbulence.md; said once)")
+                              .c_str());
 }
 
 void FixFluidForce::report_cost() {
   const double mine = MPI_Wtime() - run_began_;
-  double sums[2] = {0.0, mine};
+  double sums[2] = {eddy_seconds_, mine};
   for (const double seconds : seconds_)
     sums[0] += seconds;
   MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, world);
@@ -143,6 +171,10 @@ void FixFluidForce::report_cost() {
     if (!acting_[e])
       continue;
     std::snprintf(part, sizeof(part), "%s %s %.1f", on++ ? "," : "", effects_[e]->name(), cost[e]);
+    text += part;
+  }
+  if (eddies_) {
+    std::snprintf(part, sizeof(part), ", turbulent_dispersion %.1f", cost.back());
     text += part;
   }
   std::snprintf(part, sizeof(part), "; %.1f %% of the run\n", 100.0 * sums[0] / sums[1]);
