@@ -11,7 +11,8 @@ namespace eccentra {
 
 using namespace Foam;
 
-presentFlow::presentFlow(const averagedFlow& flow, unsigned asked) : flow_(flow), velocity_(flow.velocityOfFluxes()) {
+presentFlow::presentFlow(averagedFlow& flow, unsigned asked)
+    : fraction_(flow.alpha()), velocity_(flow.velocityOfFluxes()) {
   if (asked & link::kTurbulence) {
     energy_ = flow.turbulence()->k();
     dissipation_ = flow.turbulence()->epsilon();
@@ -20,7 +21,7 @@ presentFlow::presentFlow(const averagedFlow& flow, unsigned asked) : flow_(flow)
 
 void presentFlow::give(exchange::FlowFields& fields) const {
   fields.velocity = &velocity_();
-  fields.fraction = &flow_.alpha();
+  fields.fraction = &fraction_;
   if (energy_.valid())
     fields.turbulence = {&energy_(), &dissipation_()};
 }

@@ -112,7 +112,7 @@ void write_case(const BoxCase& box, const fs::path& folder) {
             "snGradSchemes { default corrected; } laplacianSchemes { default Gauss linear corrected; } "
             "divSchemes { default none; div(phi,U) Gauss linear; div((nuEff*dev2(T(grad(U))))) Gauss linear; " +
             (box.turbulence.empty() ? "}"
-                                    : R"("div\(alphaPhi,(k|epsilon)\)" Gauss upwind; } wallDist { method meshWave; })"));
+                                    : R"--("div\(alphaPhi,(k|epsilon)\)" Gauss upwind; } wallDist { method meshWave; })--"));
   solution << "solvers { \"(p|pFinal)\" { solver PCG; preconditioner DIC; relTol 0; tolerance " << box.tolerance
            << "; } \"(U|k|epsilon)(Final)?\" { solver PBiCGStab; preconditioner DILU; relTol 0; tolerance " << box.tolerance
            << "; } } PIMPLE { nOuterCorrectors 1; momentumPredictor yes; nCorrectors " << box.correctors << "; }";

@@ -26,15 +26,10 @@ std::string number(double value) {
   return text;
 }
 
-/// Particles that do not meet, each in the middle of a cell of its own, in a box of this size.
-std::string cloud(int count, double edge, double density) {
-  std::string text;
-  const int rows = static_cast<int>(std::ceil(std::cbrt(count)));
-  for (int i = 0; i < count; ++i)
-    text += "create_atoms 1 single " + number((i % rows + 0.5) * edge / rows) + " " +
-            number((i / rows % rows + 0.5) * edge / rows) + " " + number((i / rows / rows + 0.5) * edge / rows) +
-            " units box\n";
-  return text + "set group all diameter " + number(kSmall) + " density " + number(density) + "\n";
+/// Particles that do not meet: rows^3, far apart in a box of this size.
+std::string cloud(int rows, double edge, double density) {
+  return "lattice sc " + number(edge / rows) + "\ncreate_atoms 1 box\nset group all diameter " + number(kSmall) +
+         " density " + number(density) + "\n";
 }
 
 std::string turbulent(const std::string& words, double energy = kEnergy, double viscosity = 1e-3) {
@@ -45,8 +40,7 @@ std::string turbulent(const std::string& words, double energy = kEnergy, double 
 
 std::string head(double edge) {
   const std::string side = "0 " + number(edge);
-  // Contacts would need no search: particles of 0.1 mm, millimetres apart, pass through each other.
-  return granular_box(side + " " + side + " " + side, "p p p") + granular_material({}, "0.0005") +
+  return granular_box(side + " " + side + " " + side, "p p p") + granular_material({}, "0.004") +
          "pair_style gran model hertz tangential history\npair_coeff * *\nfix integrate all nve/sphere\n";
 }
 
@@ -89,13 +83,13 @@ double energy(LiggghtsSession& session, int k) {
 // Hinze). Across a fall with the speed w, T is 1/(1/life + w/length); the fall is fast enough for the fluctuation to
 // change its speed by little, (u'/w)^2 of the rate.
 TEST(Dispersion, HeavyParticlesTakeTheEnergyThatTchenSays) {
-  constexpr int count = 3000;
+  constexpr int rows = 15, count = rows * rows * rows;
   constexpr double fall = 4.0, viscosity = 0.05, density = 2000.0;
   const double relaxation = density * kSmall * kSmall / (18 * viscosity); // 22 us
   const double rate = 1 / kLife + fall / kLength;                         // 530 1/s: 1.9 ms
   LiggghtsSession session;
   // Creep: Re = fall d/nu = 0.008. Gravity that makes the terminal speed equal to the fall.
-  session.script(head(0.1) + cloud(count, 0.1, density) + "velocity all set 0 0 -4\nfix pull all gravity " +
+  session.script(head(0.1) + cloud(rows, 0.1, density) + "velocity all set 0 0 -4\nfix pull all gravity " +
                  number(fall / relaxation) + " vector 0 0 -1\n" +
                  turbulent("turbulent_dispersion eddy_interaction dispersion_seed 5", kEnergy, viscosity) +
                  "timestep 2e-5\nrun 400\n");
@@ -114,12 +108,12 @@ TEST(Dispersion, HeavyParticlesTakeTheEnergyThatTchenSays) {
 
 // Over long times they spread as tracers do, with the energy and the integral time of what they see.
 TEST(Dispersion, ParticlesSpreadWithTheIntegralTimeThatTheySee) {
-  constexpr int count = 3000;
+  constexpr int rows = 15, count = rows * rows * rows;
   constexpr double fall = 4.0, viscosity = 0.05, density = 2000.0, step = 2e-5;
   const double relaxation = density * kSmall * kSmall / (18 * viscosity);
   const double rate = 1 / kLife + fall / kLength;
   LiggghtsSession session;
-  session.script(head(0.1) + cloud(count, 0.1, density) + "velocity all set 0 0 -4\nfix pull all gravity " +
+  session.script(head(0.1) + cloud(rows, 0.1, density) + "velocity all set 0 0 -4\nfix pull all gravity " +
                  number(fall / relaxation) + " vector 0 0 -1\n" +
                  turbulent("turbulent_dispersion eddy_interaction dispersion_seed 9", kEnergy, viscosity) +
                  "timestep 2e-5\nrun 500\n");
@@ -144,7 +138,7 @@ TEST(Dispersion, OffAndWithoutTurbulenceEveryDigitStays) {
   for (const auto& [words, energy] :
        {std::pair<const char*, double>{"", kEnergy}, {"turbulent_dispersion none", kEnergy}, {"turbulent_dispersion eddy_interaction", 0.0}}) {
     LiggghtsSession session;
-    session.script(head(0.02) + cloud(60, 0.02, 2000) + "velocity all set 0.1 0.2 -0.1\n" + turbulent(words, energy) +
+    session.script(head(0.02) + cloud(4, 0.02, 2000) + "velocity all set 0.1 0.2 -0.1\n" + turbulent(words, energy) +
                    "timestep 2e-5\nrun 200\n");
     found.push_back(states(session));
     EXPECT_EQ(FixFluidForce::find(&session.lammps())->needs() & eccentra::link::kTurbulence,
@@ -160,7 +154,7 @@ TEST(Dispersion, RestartContinuesBitForBit) {
   std::map<int, std::array<double, 6>> straight;
   {
     LiggghtsSession session;
-    session.script(head(0.02) + cloud(60, 0.02, 2000) + "velocity all set 1 2 -1\n" + scene +
+    session.script(head(0.02) + cloud(4, 0.02, 2000) + "velocity all set 1 2 -1\n" + scene +
                    "run 1500\nwrite_restart dispersion.restart\nrun 1500\n");
     straight = states(session);
   }
@@ -175,7 +169,7 @@ TEST(Dispersion, RestartContinuesBitForBit) {
 
 TEST(Dispersion, MomentumIsThatOfTheFluid) {
   LiggghtsSession session;
-  session.script(head(0.02) + cloud(60, 0.02, 2000) + "velocity all set 0.1 0.2 -0.1\n" +
+  session.script(head(0.02) + cloud(4, 0.02, 2000) + "velocity all set 0.1 0.2 -0.1\n" +
                  turbulent("turbulent_dispersion eddy_interaction") + "timestep 2e-5\n");
   const auto rest = [&] {
     std::array<double, 3> mine{}, all{};
