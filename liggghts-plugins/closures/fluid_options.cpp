@@ -93,8 +93,9 @@ void check_dispersion(const FluidOptions& options, const std::set<std::string>& 
     refuse("keyword 'turbulent_dispersion': 'eddy_interaction' moves particles through their drag, but there is none; "
            "add drag NAME");
   if (said.count("dispersion_seed") && !options.turbulent_dispersion)
-    refuse("keyword 'dispersion_seed' is for a random walk, but 'turbulent_dispersion' is none; add turbulent_dispersion "
-           "eddy_interaction");
+    refuse(
+        "keyword 'dispersion_seed' is for a random walk, but 'turbulent_dispersion' is none; add turbulent_dispersion "
+        "eddy_interaction");
 }
 
 template <template <class> class Torque> std::unique_ptr<Effect> make_torque(const Rheology& fluid) {
@@ -158,10 +159,11 @@ FluidOptions read_fluid_options(const std::vector<std::string>& arguments, int a
     } else if (keyword == "sphericity") {
       read_sphericity(reader, options, atom_types);
     } else {
-      reader.unknown("rheology, density, drag, void_reynolds, power_law_factor, yield_weight, yield_form, shear_lift, "
-                     "rotational_lift, drag_torque, oriented, strain_torque, pitching_torque, pressure_gradient, "
-                     "viscous_stress, buoyancy, turbulent_dispersion, dispersion_seed, sphericity, screen, screen_steps, "
-                     "screen_recheck");
+      reader.unknown(
+          "rheology, density, drag, void_reynolds, power_law_factor, yield_weight, yield_form, shear_lift, "
+          "rotational_lift, drag_torque, oriented, strain_torque, pitching_torque, pressure_gradient, "
+          "viscous_stress, buoyancy, turbulent_dispersion, dispersion_seed, sphericity, screen, screen_steps, "
+          "screen_recheck");
     }
   }
   if (options.rheology.consistency == 0.0)

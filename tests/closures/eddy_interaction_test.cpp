@@ -23,7 +23,8 @@ const double kOfThree = 4 * std::sqrt(2.0 / (3.0 * kParticles)), kOfOne = 4 * st
 /// Particles in a fluid at rest in the mean, whose velocities the test prescribes.
 class Cloud {
  public:
-  Cloud() : velocity(kParticles), rows_(kParticles), sampled_(kParticles), turbulence_(kParticles), mask_(kParticles, 1) {
+  Cloud()
+      : velocity(kParticles), rows_(kParticles), sampled_(kParticles), turbulence_(kParticles), mask_(kParticles, 1) {
     tags.resize(kParticles);
     std::iota(tags.begin(), tags.end(), 1);
     eddies.resize(kParticles, Eddy{});
@@ -123,8 +124,7 @@ TEST(EddyInteraction, FallingParticlesCrossTheEddies) {
   double sum = 0;
   for (const double x : way)
     sum += x * x;
-  const double pairs =
-      steps * (1 + keep) / (1 - keep) - 2 * keep * (1 - std::pow(keep, steps)) / std::pow(1 - keep, 2);
+  const double pairs = steps * (1 + keep) / (1 - keep) - 2 * keep * (1 - std::pow(keep, steps)) / std::pow(1 - keep, 2);
   const double expected = std::pow(scales.speed * dt, 2) * pairs;
   EXPECT_NEAR(sum / kParticles, expected, (kOfOne + 1.0 / 400) * expected);
 }

@@ -111,11 +111,13 @@ void write_case(const BoxCase& box, const fs::path& folder) {
             "; } gradSchemes { default Gauss linear; } interpolationSchemes { default linear; } "
             "snGradSchemes { default corrected; } laplacianSchemes { default Gauss linear corrected; } "
             "divSchemes { default none; div(phi,U) Gauss linear; div((nuEff*dev2(T(grad(U))))) Gauss linear; " +
-            (box.turbulence.empty() ? "}"
-                                    : R"--("div\(alphaPhi,(k|epsilon)\)" Gauss upwind; } wallDist { method meshWave; })--"));
+            (box.turbulence.empty()
+                 ? "}"
+                 : R"--("div\(alphaPhi,(k|epsilon)\)" Gauss upwind; } wallDist { method meshWave; })--"));
   solution << "solvers { \"(p|pFinal)\" { solver PCG; preconditioner DIC; relTol 0; tolerance " << box.tolerance
-           << "; } \"(U|k|epsilon)(Final)?\" { solver PBiCGStab; preconditioner DILU; relTol 0; tolerance " << box.tolerance
-           << "; } } PIMPLE { nOuterCorrectors 1; momentumPredictor yes; nCorrectors " << box.correctors << "; }";
+           << "; } \"(U|k|epsilon)(Final)?\" { solver PBiCGStab; preconditioner DILU; relTol 0; tolerance "
+           << box.tolerance << "; } } PIMPLE { nOuterCorrectors 1; momentumPredictor yes; nCorrectors "
+           << box.correctors << "; }";
   write(folder / "system/fvSolution", "dictionary", solution.str());
   write(folder / "system/decomposeParDict", "dictionary", "numberOfSubdomains 2; method simple; coeffs { n (1 1 2); }");
   transport << "rho " << box.density << "; ";

@@ -706,7 +706,8 @@ class Scripts(unittest.TestCase):
                 ("cluster-speed", ["--quick", "--bodies", "20", "--scenes", "settled", "--shapes", "cube:8"], "cluster-speed.csv", "bin/eccentra-dem"),
                 ("compare-peers", ["--quick", "--codes", "ours,stock", "--scenes", "drop", "--shapes", "cube 8"], "compare-peers.csv", "bin/eccentra-dem"),
                 ("closure-cost", ["--quick"], "closure-cost.csv", "tests/closures_benchmark"),
-                ("solver-cost", ["--quick", "--viscosity", "strainRate", "--pressure", "gamg,pcgGamg", "--turbulence", "laminar,kEpsilon"], "cost.csv", "tests/openfoam_coupled_cost"),
+                ("solver-cost", ["--quick", "--viscosity", "strainRate", "--pressure", "gamg,pcgGamg", "--turbulence", "laminar,kEpsilon"],
+                 "cost.csv", "tests/openfoam_coupled_cost"),
                 ("link-cost", ["--quick", "--parts", "cost"], "coupled.csv", "tests/exchange_benchmark")):
             if not (BUILD / needs).is_file():
                 continue

@@ -128,7 +128,7 @@ class FixFluidForce : public LAMMPS_NS::Fix {
   std::unique_ptr<closures::EddyInteraction> eddies_; ///< null without turbulent_dispersion
   std::vector<double> seen_;                          ///< velocity with the fluctuation; scratch
   double eddy_seconds_ = 0.0;                         ///< spent on it since the last report
-  std::vector<double*> rows_; ///< array_atom: last force of each atom
+  std::vector<double*> rows_;                         ///< array_atom: last force of each atom
   std::vector<std::string> sources_;
   unsigned needs_ = 0;
   double elapsed_ = 0.0;

@@ -34,8 +34,8 @@ std::string cloud(int rows, double edge, double density) {
 
 std::string turbulent(const std::string& words, double energy = kEnergy, double viscosity = 1e-3) {
   return "fix mud all fluid/force rheology newtonian " + number(viscosity) +
-         " density 1 drag schiller_naumann buoyancy off " + words + "\nfix flow all fluid/uniform velocity 0 0 0 turbulence " +
-         number(energy) + " " + number(kDissipation) + "\n";
+         " density 1 drag schiller_naumann buoyancy off " + words +
+         "\nfix flow all fluid/uniform velocity 0 0 0 turbulence " + number(energy) + " " + number(kDissipation) + "\n";
 }
 
 std::string head(double edge) {
@@ -125,8 +125,8 @@ TEST(Dispersion, ParticlesSpreadWithTheIntegralTimeThatTheySee) {
       const double way = std::remainder(state[k] - before.at(tag)[k], 0.1);
       sum += way * way / (2.0 * count);
     }
-  // Taylor's integral over the two-time correlation of the particle's own velocity: for t >> t_p that of the fluid seen,
-  // less the memory of both ends.
+  // Taylor's integral over the two-time correlation of the particle's own velocity: for t >> t_p that of the fluid
+  // seen, less the memory of both ends.
   const double time = 1000 * step, seen = 1 / rate;
   const double tracer = 2 * std::pow(kSpeed * seen, 2) * (time / seen - 1 + std::exp(-time / seen));
   const double ends = 2 * kSpeed * kSpeed * relaxation * relaxation / (1 + relaxation / seen); // of <v^2> t_p^2
@@ -135,8 +135,9 @@ TEST(Dispersion, ParticlesSpreadWithTheIntegralTimeThatTheySee) {
 
 TEST(Dispersion, OffAndWithoutTurbulenceEveryDigitStays) {
   std::vector<std::map<int, std::array<double, 6>>> found;
-  for (const auto& [words, energy] :
-       {std::pair<const char*, double>{"", kEnergy}, {"turbulent_dispersion none", kEnergy}, {"turbulent_dispersion eddy_interaction", 0.0}}) {
+  for (const auto& [words, energy] : {std::pair<const char*, double>{"", kEnergy},
+                                      {"turbulent_dispersion none", kEnergy},
+                                      {"turbulent_dispersion eddy_interaction", 0.0}}) {
     LiggghtsSession session;
     session.script(head(0.02) + cloud(4, 0.02, 2000) + "velocity all set 0.1 0.2 -0.1\n" + turbulent(words, energy) +
                    "timestep 2e-5\nrun 200\n");
