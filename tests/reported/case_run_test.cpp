@@ -161,6 +161,7 @@ TEST(Reported, adversary_15_words_of_run) {
                                                        {"--momentum", "no"},
                                                        {"--void-fraction", "x"},
                                                        {"--viscosity", "thick"},
+                                                       {"--turbulence", "kOmega"},
                                                        {"--shape", ""},
                                                        {"--shape", "cube\n8"},
                                                        {"--effects", "$x"},
@@ -193,6 +194,39 @@ TEST(Reported, adversary_15_words_of_run) {
       start(here, case_run("tomren-section", short_section("-dash", {"--count", "3e1", "--seconds", "0.01"})));
   EXPECT_EQ(right.status, 0) << right.output;
   EXPECT_TRUE(holds(contents(here / "-dash/in.cuttings"), "index 30 ")) << contents(here / "-dash/in.cuttings");
+}
+
+TEST(Reported, run_with_a_turbulence_model) {
+  const fs::path here = fresh_folder("turbulence");
+  const std::string table = "postProcessing/eccentra/coupling.csv";
+  ASSERT_EQ(start(here, case_run("tomren-section", short_section("plain", {"--seconds", "0.05"}))).status, 0);
+  ASSERT_EQ(
+      start(here, case_run("tomren-section", short_section("off", {"--seconds", "0.05", "--turbulence", "laminar"})))
+          .status,
+      0);
+  EXPECT_EQ(physics_of_table(here / "off" / table), physics_of_table(here / "plain" / table));
+  for (const char* model : {"kEpsilon", "realizableKE", "kOmegaSST"}) {
+    const std::vector<std::string> words = {
+        "--velocity",   "3",       "--seconds", "0.05",      "--rpm",
+        "50",           "--ranks", "2",         "--effects", "drag chien turbulent_dispersion eddy_interaction",
+        "--turbulence", model};
+    const ProgramResult result = start(here, case_run("tomren-section", short_section(model, words)));
+    EXPECT_EQ(result.status, 0) << result.output;
+    EXPECT_TRUE(holds(result.output, std::string("turbulence by ") + model)) << result.output;
+    EXPECT_TRUE(holds(result.output, "asked for velocity fraction turbulence;")) << result.output;
+    EXPECT_NE(physics_of_table(here / model / table), physics_of_table(here / "plain" / table));
+  }
+  // From an inlet to an outlet.
+  const ProgramResult open =
+      start(here, case_run("tomren-injection", {"--output", "open", "--seconds", "0.04", "--run-in", "5", "--cells",
+                                                "6 24 12", "--length", "0.3", "--turbulence", "kEpsilon"}));
+  EXPECT_EQ(open.status, 0) << open.output;
+  EXPECT_TRUE(holds(contents(here / "open/0/epsilon"), "inlet { type fixedValue;")) << open.output;
+  // Fields that a case has are its own; where nothing says how large eddies are, it must have them.
+  const ProgramResult bend = start(here, case_run("pipe-bend", {"--output", "bend", "--turbulence", "kEpsilon"}));
+  EXPECT_EQ(bend.status, 1);
+  EXPECT_TRUE(holds(bend.output, "write 0/k, 0/epsilon or 0/omega, and 0/nut")) << bend.output;
+  EXPECT_FALSE(fs::exists(here / "bend"));
 }
 
 TEST(Reported, adversary_17_names_of_folders) {

@@ -14,7 +14,7 @@ if(ECCENTRA_OPENFOAM)
     ${_of_runs})
   eccentra_reported(case_run ROWS
       readme_ctrl_c_in_tomren_section_then_resume resume_over_the_socket_on_two_ranks readme_cp_r_tomren_section_run
-      refused_run_has_nothing_to_go_on_with readme_output_a_b adversary_15_words_of_run adversary_17_names_of_folders adversary_4_comma_locale
+      refused_run_has_nothing_to_go_on_with readme_output_a_b adversary_15_words_of_run run_with_a_turbulence_model adversary_17_names_of_folders adversary_4_comma_locale
     ${_of_runs})
   eccentra_reported(full_disk ROWS
       adversary_1_disk_full_for_a_moment adversary_1b_dump_cluster_vtk_on_a_full_disk
