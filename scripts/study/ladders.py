@@ -20,6 +20,7 @@ class Size:
     cells: str
     seconds: float
     seeds: int
+    turbulence: str = ""  # model of the flow; empty: laminar
 
 
 @dataclasses.dataclass(frozen=True)
@@ -110,6 +111,8 @@ class Ladders:
                  **section.level_words(point.level)}
         if rung > POURED_ABOVE or point.inclination > 0:
             words["pouring"] = POURING
+        if self.size.turbulence:
+            words["turbulence"] = self.size.turbulence
         if point.sphericity != 1:
             words["sphericity"] = point.sphericity
         return section.section_job(self.build, f"{point.name()}, {100 * rung:g} %, seed {seed}", words, SHARE, point.level.spheres)

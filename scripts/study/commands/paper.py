@@ -80,6 +80,7 @@ def main():
                         "the 116 runs of Yu et al., University of Tulsa, as published in awojinrin/ML-Workflow-for-the-Determination-of-"
                         "Hole-Cleaning-Conditions (files/dataframe.csv)")
     parser.add_argument("--velocities", nargs="+", type=float, choices=SPEEDS, help="mean velocities [m/s] (default: all of the figure)")
+    parser.add_argument("--turbulence", choices=("kEpsilon", "realizableKE", "kOmegaSST"), help="model of the flow (default: laminar, as the paper)")
     parser.add_argument("--rungs", nargs="+", type=float, metavar="SHARE", help="fillings of the ladder, rising, such as 0.02 0.15 0.35")
 
     def check(words):
@@ -99,6 +100,8 @@ def main():
             "velocities", "shape_velocities", "coarse_velocities", "friction_velocities")})
     if words.rungs:
         size = dataclasses.replace(size, rungs=tuple(words.rungs))
+    if words.turbulence:
+        size = dataclasses.replace(size, turbulence=words.turbulence)
 
     page, failed = [], []
     if "table1" in words.figures:
@@ -138,7 +141,7 @@ def main():
     if words.plan:
         return 0
     settings = (f"fillings {', '.join(f'{100 * r:g} %' for r in size.rungs)}, {size.length} m, cells {size.cells.replace(' ', 'x')}, "
-                f"{size.seconds} s, means over the last {100 * ladders.SHARE:.0f} % of it, {size.seeds} seed(s)")
+                f"{size.seconds} s, {size.turbulence or 'laminar'}, means over the last {100 * ladders.SHARE:.0f} % of it, {size.seeds} seed(s)")
     return tables.finish(words, page, failed, settings)
 
 
