@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The case flow-loop: which bed a feed leads to, and what its numbers say."""
+import argparse
 import importlib.machinery
 import importlib.util
 import math
@@ -36,7 +37,7 @@ class Numbers(unittest.TestCase):
         self.assertEqual((float(scene["holeRadius"]), float(scene["pipeRadius"])), loop.RADII)
         self.assertEqual(float(scene["length"]), loop.LENGTH)
         self.assertAlmostEqual(math.pi / 6 * float(scene["diameter"])**3, loop.GRAIN)
-        self.assertEqual(int(scene["count"]), loop.count_of(0.16))
+        self.assertEqual(int(scene["count"]), loop.count_of(0.16, loop.LENGTH))
 
     def test_feed_is_the_rate_of_penetration_over_the_section_of_the_hole(self):
         hole = 30 * 0.3048 / 3600 * math.pi * loop.RADII[0]**2  # 30 ft/h
@@ -50,12 +51,21 @@ class Numbers(unittest.TestCase):
             for number in numbers:
                 self.assertAlmostEqual(loop.tests()[number]["k"], k, places=3)
 
-    def test_steps_of_all_tests_are_whole_and_of_one_length(self):
-        for test in loop.tests().values():
-            words = loop.arguments(test, 0.08, 1)
-            value = dict(zip(words[::2], words[1::2]))
-            self.assertAlmostEqual(float(value["--fluid_step"]) / int(value["--interval"]), 0.005 / 208)
-            self.assertLess(test["velocity"] * float(value["--fluid_step"]), 0.6 * 0.005 + 1e-9)
+    def test_steps_of_all_tests_are_whole_and_follow_the_modulus(self):
+        for modulus, steps in ((5e6, 208), (5e5, 66)):  # a soft grain's step is longer by the root
+            words = argparse.Namespace(seconds=1, length=0.3, modulus=modulus, scene=[])
+            for test in loop.tests().values():
+                given = loop.arguments(test, 0.08, words)
+                value = dict(zip(given[::2], given[1::2]))
+                self.assertAlmostEqual(float(value["--fluid_step"]) / int(value["--interval"]), 0.005 / steps)
+                self.assertLess(test["velocity"] * float(value["--fluid_step"]), 0.6 * 0.005 + 1e-9)
+
+    def test_a_shorter_section_keeps_cells_and_amount(self):
+        words = argparse.Namespace(seconds=1, length=0.1, modulus=5e6, scene=["--rolling", "0.1"])
+        given = loop.arguments(loop.tests()[13], 0.08, words)
+        value = dict(zip(given[::2], given[1::2]))
+        self.assertEqual((value["--cellsAlong"], value["--rolling"]), ("7", "0.1"))
+        self.assertAlmostEqual(int(value["--count"]) / (0.08 * loop.AREA * 0.1 / loop.GRAIN), 1, places=3)
 
 
 class Means(unittest.TestCase):
