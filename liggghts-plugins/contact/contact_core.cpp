@@ -77,7 +77,8 @@ ContactCore::ContactCore(const std::vector<Vector3d>& centres, const std::vector
   contact_radius = radius;
 }
 
-ContactCore::ContactCore(const std::vector<MeshTriangle>& triangles) : solid(SolidKind::surface), surface(triangles) {
+ContactCore::ContactCore(const std::vector<MeshTriangle>& triangles)
+    : solid(SolidKind::surface), surface(triangles), extents(triangles.begin(), triangles.end()) {
   std::vector<Vector3d> corners;
   const auto number = [&](const Vector3d& corner, double near) {
     const auto at =
@@ -196,8 +197,11 @@ shape::CoreDistance distance_to(const PosedCore& posed, const Vector3d& point) {
 }
 
 shape::CoreDistance distance_to_faces(const ContactCore& core, const Vector3d& point) {
-  return core.solid == SolidKind::surface ? distance_to(core.surface, point)
-                                          : shape::distance_to_core(core.polyhedron, point);
+  if (core.solid != SolidKind::surface)
+    return shape::distance_to_core(core.polyhedron, point);
+  const ClosestTriangle closest = closest_of(core.surface, core.extents, point);
+  const double distance = closest.away.norm();
+  return {distance, distance > 0 ? Vector3d(closest.away / distance) : core.surface[closest.number].normal()};
 }
 
 } // namespace eccentra::contact

@@ -46,6 +46,7 @@ struct ContactCore {
   Eigen::Vector3d half = {0, 0, 0};      ///< of a box, its half edges; of a disk, its radius twice and its half height
   shape::ConvexCore polyhedron;          ///< of polyhedra and flat cores
   std::vector<MeshTriangle> surface;     ///< of surfaces
+  std::vector<TriangleExtent> extents;   ///< of the triangles of a surface
   int ring = 0;                          ///< points on each rim of a disk
   int rims = 0;                          ///< of a disk: 1 or 2
 

@@ -57,12 +57,7 @@ struct MeshSurface {
     if (feature < solid.solid_feature())
       return edge_at[feature - solid.points];
     const Vector3d on = contact.arm - contact.distance * contact.normal;
-    const auto apart = [&](const MeshTriangle& t) { return (t.closest(on) - on).squaredNorm(); };
-    int closest = 0;
-    for (int m = 1; m < static_cast<int>(solid.surface.size()); ++m)
-      if (apart(solid.surface[m]) < apart(solid.surface[closest]))
-        closest = m;
-    return {closest, face_feature + feature - solid.solid_feature()};
+    return {closest_of(solid.surface, solid.extents, on).number, face_feature + feature - solid.solid_feature()};
   }
 
  private:
@@ -89,39 +84,46 @@ const std::vector<MeshManifold::Touch>& MeshManifold::touches(const ContactBody&
   const std::size_t count = triangles.size();
   touches_.clear();
   corners_.clear();
+  extents_.clear();
+  for (const MeshTriangle& triangle : triangles)
+    extents_.emplace_back(triangle);
   if (core.is_disk()) {
     touches_of_disk(body, triangles);
     return touches_;
   }
-  closest_.resize(count);
   points_.resize(std::max(points_.size(), count));
   for (std::vector<int>& points : points_)
     points.clear();
   for (int k = 0; k < core.points; ++k) {
     const double reach = (core.solid == SolidKind::none ? core.point_radius[k] : core.radius) + body.extra;
     const Vector3d point = body.posed->point(k);
-    for (std::size_t t = 0; t < count; ++t)
-      closest_[t] = triangles[t].closest(point);
     for (std::size_t t = 0; t < count; ++t) {
-      if ((closest_[t] - point).squaredNorm() >= reach * reach)
+      if (!extents_[t].within(point, reach))
         continue;
-      bool counts = true;
-      for (std::size_t other = 0; counts && other < count; ++other) {
-        if (other == t)
-          continue;
-        const double near = std::max(triangles[t].same_place(), triangles[other].same_place());
-        const bool same = (closest_[other] - closest_[t]).norm() < near;
-        // The first of those with the same closest point has it; one that has this point, but a closer one, has all.
-        if (same ? other < t : (triangles[other].closest(closest_[t]) - closest_[t]).norm() < near)
-          counts = false;
-      }
-      if (counts)
+      const Vector3d on = triangles[t].closest(point);
+      if ((on - point).squaredNorm() < reach * reach && belongs_to(t, on, point, triangles))
         points_[t].push_back(k);
     }
   }
   for (std::size_t t = 0; t < count; ++t)
     take(body, triangles, static_cast<int>(t));
   return touches_;
+}
+
+/// Whether a triangle has its point `on` closest to the body's `point` for itself: the first of those with the same
+/// closest point has it; one that has this point, but a closer one, has all.
+bool MeshManifold::belongs_to(std::size_t triangle, const Vector3d& on, const Vector3d& point,
+                              const std::vector<MeshTriangle>& triangles) const {
+  const double own = triangles[triangle].same_place();
+  for (std::size_t other = 0; other < triangles.size(); ++other) {
+    const double near = std::max(own, triangles[other].same_place());
+    if (other == triangle || !extents_[other].within(on, 2 * near))
+      continue;
+    if ((triangles[other].closest(point) - on).norm() < near ? other < triangle
+                                                             : (triangles[other].closest(on) - on).norm() < near)
+      return false;
+  }
+  return true;
 }
 
 void MeshManifold::take(const ContactBody& body, const std::vector<MeshTriangle>& triangles, int number) {
@@ -165,8 +167,9 @@ void MeshManifold::touches_of_disk(const ContactBody& disk, const std::vector<Me
   // What is out of reach joins no surfaces: neighbour lists may hold more or less of it.
   std::vector<MeshTriangle> near;
   std::vector<int> number;
+  const double reach = disk.posed->core->bound + disk.extra;
   for (std::size_t t = 0; t < triangles.size(); ++t)
-    if (triangles[t].closest(Vector3d::Zero()).norm() < disk.posed->core->bound + disk.extra) {
+    if (extents_[t].within(Vector3d::Zero(), reach) && triangles[t].closest(Vector3d::Zero()).norm() < reach) {
       near.push_back(triangles[t]);
       number.push_back(static_cast<int>(t));
     }

@@ -30,6 +30,8 @@ class MeshManifold {
 
  private:
   void take(const ContactBody& body, const std::vector<MeshTriangle>& triangles, int number);
+  bool belongs_to(std::size_t triangle, const Eigen::Vector3d& on, const Eigen::Vector3d& point,
+                  const std::vector<MeshTriangle>& triangles) const;
   bool take_corner(const Eigen::Vector3d& corner, double near, const ContactBody& body);
   void touches_of_disk(const ContactBody& disk, const std::vector<MeshTriangle>& triangles);
   void take_surface(const ContactBody& disk, const std::vector<MeshTriangle>& triangles,
@@ -40,7 +42,7 @@ class MeshManifold {
   PosedCore posed_;
   Manifolds manifolds_;
   std::vector<int> candidates_;
-  std::vector<Eigen::Vector3d> closest_; ///< of each triangle to the point at hand
+  std::vector<TriangleExtent> extents_;  ///< of the triangles
   std::vector<std::vector<int>> points_; ///< of the body, by the triangle that they touch
   std::vector<Eigen::Vector3d> corners_; ///< that have been counted
   std::vector<Touch> touches_;

@@ -71,20 +71,28 @@ double MeshTriangle::same_place() const {
   return same_part * (corner[1] - corner[0]).norm();
 }
 
-shape::CoreDistance distance_to(const std::vector<MeshTriangle>& triangles, const Vector3d& point) {
-  double least = std::numeric_limits<double>::max();
-  Vector3d away = Vector3d::Zero();
-  const MeshTriangle* closest = nullptr;
-  for (const MeshTriangle& t : triangles) {
-    const Vector3d from = point - t.closest(point);
+TriangleExtent::TriangleExtent(const MeshTriangle& triangle)
+    : middle_((triangle.corner[0] + triangle.corner[1] + triangle.corner[2]) / 3), normal_(triangle.normal()),
+      radius_(0) {
+  for (const Vector3d& corner : triangle.corner)
+    radius_ = std::max(radius_, (corner - middle_).norm());
+}
+
+ClosestTriangle closest_of(const std::vector<MeshTriangle>& triangles, const std::vector<TriangleExtent>& extents,
+                           const Vector3d& point) {
+  ClosestTriangle closest{0, Vector3d::Zero()};
+  double least = std::numeric_limits<double>::max(), distance = least;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (!extents[t].within(point, distance))
+      continue;
+    const Vector3d from = point - triangles[t].closest(point);
     if (const double square = from.squaredNorm(); square < least) {
       least = square;
-      away = from;
-      closest = &t;
+      distance = std::sqrt(square);
+      closest = {static_cast<int>(t), from};
     }
   }
-  const double distance = std::sqrt(least);
-  return {distance, distance > 0 ? Vector3d(away / distance) : closest->normal()};
+  return closest;
 }
 
 std::vector<int> surfaces_of(const std::vector<MeshTriangle>& triangles, const Vector3d& seen_from) {

@@ -3,11 +3,10 @@
 // A triangle of a mesh, and several of them as one surface.
 #pragma once
 
-#include "shape/rounded_core.h"
-
 #include <Eigen/Core>
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace eccentra::contact {
@@ -25,8 +24,29 @@ struct MeshTriangle {
   double same_place() const;
 };
 
-/// Distance of `point` from the closest of the triangles [m] and the normal from there to the point.
-shape::CoreDistance distance_to(const std::vector<MeshTriangle>& triangles, const Eigen::Vector3d& point);
+/// Plane of a triangle and ball about it: what is out of reach of them is out of reach of the triangle.
+class TriangleExtent {
+ public:
+  explicit TriangleExtent(const MeshTriangle& triangle);
+  /// Whether the triangle may have a point closer than `reach` [m] to `point`.
+  bool within(const Eigen::Vector3d& point, double reach) const {
+    const Eigen::Vector3d from = point - middle_;
+    return std::abs(normal_.dot(from)) < reach && from.squaredNorm() < (radius_ + reach) * (radius_ + reach);
+  }
+
+ private:
+  Eigen::Vector3d middle_, normal_;
+  double radius_;
+};
+
+/// A triangle of several, and the way from its closest point to another.
+struct ClosestTriangle {
+  int number;           ///< among them
+  Eigen::Vector3d away; ///< from the triangle to the point [m]
+};
+/// The closest of one or more triangles, whose extents are given; the first of those as close as each other.
+ClosestTriangle closest_of(const std::vector<MeshTriangle>& triangles, const std::vector<TriangleExtent>& extents,
+                           const Eigen::Vector3d& point);
 
 /// The surface to which each triangle belongs, by the number of its first one. Neighbours belong to one where the edge
 /// between them is flat or stands out to the side of `seen_from`, and to two where it is the bottom of a corner.

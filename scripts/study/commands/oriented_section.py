@@ -104,8 +104,11 @@ def main():
         results = [found[(*key, seed)] for seed in section.SEEDS[:chosen.seeds]]
         row = [shape, f"{inclination:g}", *named]
         for name in QUANTITIES:
-            value, error = mean_and_error([r["mean"][name][0] for r in results])
-            row += [f"{value:.3e}", f"{error:.1e}"]
+            if all(name in r["mean"] for r in results):  # bodies of an upright hole have no height
+                value, error = mean_and_error([r["mean"][name][0] for r in results])
+                row += [f"{value:.3e}", f"{error:.1e}"]
+            else:
+                row += ["", ""]
         value, error = mean_and_error([r["across"] for r in results])
         rows.append([*row, f"{value:.3f}", f"{error:.3f}"])
         histograms.append((shape, inclination, ", ".join(named[:1] if len(chosen.yield_forms) == 1 else named),
