@@ -732,6 +732,17 @@ class Scripts(unittest.TestCase):
                                      [(pressure, model) for pressure in ("gamg", "pcgGamg") for model in ("laminar", "kEpsilon")])
                     self.assertTrue(all(float(row["iterations"]) >= 1 for row in found))
 
+    def test_disks_in_an_upright_hole_have_no_height(self):
+        if not (BUILD / "bin" / "annulusFoam").is_file():
+            self.skipTest("annulusFoam is not built")
+        with tempfile.TemporaryDirectory() as folder:
+            said = run("oriented-section", "--quick", "--shapes", "disk:7", "--inclinations", "0", "--forces", "oriented", "--count", "20", "--out", folder)
+            self.assertEqual(said.returncode, 0, said.stderr + said.stdout)
+            with open(pathlib.Path(folder) / "section.csv", newline="") as rows:
+                (row,) = csv.DictReader(rows)
+            self.assertEqual(row["height"], "")
+            self.assertGreater(float(row["gradient"]), 0)
+
     def test_clusters_that_stick_form_a_steeper_heap(self):
         if not (BUILD / "bin" / "annulusReport").is_file():
             self.skipTest("annulusReport is not built")
