@@ -214,7 +214,7 @@ def warnings_of(layout):
         said.append(f"the narrow side ({1e3 * annulus.narrowest:.3g} mm) lets no grain of {1e3 * largest:.3g} mm through: grains wedge there")
     if max(layout.reynolds_mean, layout.reynolds_wide) > layout.laminar_limit:
         said.append(f"the flow is turbulent where Re is above {layout.laminar_limit:.4g}, and is computed as laminar: "
-                    "pressure drop and transport come out too low; a model in constant/turbulenceProperties computes it (docs/turbulence.md)")
+                    "pressure drop and transport come out too low; run --turbulence kEpsilon computes it with a model (docs/turbulence.md)")
     smallest = annulus.narrowest / cells[0]
     if smallest < 0.1 * wish.diameter:
         said.append(f"cells of the narrow side are {1e3 * smallest:.2g} mm, a tenth of a grain or less: void fractions there are spread over three grains")
