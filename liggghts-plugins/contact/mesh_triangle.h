@@ -27,6 +27,7 @@ struct MeshTriangle {
 /// Plane of a triangle and ball about it: what is out of reach of them is out of reach of the triangle.
 class TriangleExtent {
  public:
+  /// Of a triangle whose corners are apart.
   explicit TriangleExtent(const MeshTriangle& triangle);
   /// Whether the triangle may have a point closer than `reach` [m] to `point`.
   bool within(const Eigen::Vector3d& point, double reach) const {
