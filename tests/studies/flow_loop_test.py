@@ -31,6 +31,22 @@ class Feed(unittest.TestCase):
         self.assertEqual(loop.at_feed([(0.02, -1e-9, 0.01), (0.1, 2 * loop.FEED, 0.1)]), ("<", 0.1))
 
 
+class Ratios(unittest.TestCase):
+    def test_bounds_go_the_right_way(self):
+        found = {1: ("", 0.1), 2: ("", 0.4), 3: ("<", 0.1), 4: (">", 0.4), 5: ("<", 0.0)}
+        self.assertEqual(loop.ratio_of(found, 1, 2), ("", 0.25))
+        self.assertEqual(loop.ratio_of(found, 3, 2), ("<", 0.25))
+        self.assertEqual(loop.ratio_of(found, 1, 4), ("<", 0.25))  # over more than 0.4
+        self.assertTrue(math.isnan(loop.ratio_of(found, 1, 5)[1]))
+
+    def test_chart(self):
+        with tempfile.TemporaryDirectory() as folder:
+            loop.chart(pathlib.Path(folder) / "loop.svg", loop.tests(), {13: ("", 0.35), 14: ("", 0.01), 43: (">", 0.2)})
+            text = (pathlib.Path(folder) / "loop.svg").read_text()
+        for words in ("80 rpm, 14/13", "67 for 90 degrees, 43/13", "ratios of pairs"):
+            self.assertIn(words, text)
+
+
 class Numbers(unittest.TestCase):
     def test_scene_and_loop_have_one_geometry(self):
         scene = dict(re.findall(r"^(\w+)\s+([-\d.]+);", (CASE / "scene").read_text(), re.MULTILINE))
