@@ -205,11 +205,12 @@ TEST(Reported, run_with_a_turbulence_model) {
           .status,
       0);
   EXPECT_EQ(physics_of_table(here / "off" / table), physics_of_table(here / "plain" / table));
-  for (const char* model : {"kEpsilon", "realizableKE", "kOmegaSST"}) {
+  for (const auto& [model, link] : {std::pair<const char*, const char*>{"kEpsilon", "solver"},
+                                    {"realizableKE", "solver"},
+                                    {"kOmegaSST", "socket"}}) {
     const std::vector<std::string> words = {
-        "--velocity",   "3",       "--seconds", "0.05",      "--rpm",
-        "50",           "--ranks", "2",         "--effects", "drag chien turbulent_dispersion eddy_interaction",
-        "--turbulence", model};
+        "--velocity",   "3",   "--seconds", "0.05", "--effects", "drag chien turbulent_dispersion eddy_interaction",
+        "--turbulence", model, "--link",    link};
     const ProgramResult result = start(here, case_run("tomren-section", short_section(model, words)));
     EXPECT_EQ(result.status, 0) << result.output;
     EXPECT_TRUE(holds(result.output, std::string("turbulence by ") + model)) << result.output;
