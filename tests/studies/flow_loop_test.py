@@ -39,6 +39,7 @@ class Ratios(unittest.TestCase):
         self.assertEqual(loop.ratio_of(found, 1, 4), ("<", 0.25))  # over more than 0.4
         self.assertTrue(math.isnan(loop.ratio_of(found, 1, 5)[1]))
 
+    @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "matplotlib is missing")
     def test_chart(self):
         with tempfile.TemporaryDirectory() as folder:
             loop.chart(pathlib.Path(folder) / "loop.svg", loop.tests(), {13: ("", 0.35), 14: ("", 0.01), 43: (">", 0.2)})
