@@ -9,7 +9,8 @@ TIMES = 6
 PIECE = 0.5  # of the hole, in the close picture [m]
 SLICE = 0.03  # of the cross-section [m]
 DIRECTIONS = 200  # in which a convex body has a point of its outline
-WIDE = 18  # of the strip of frames [inch]
+WIDE = 18  # of the strip of frames and of the film [inch]
+FRAME_TIME = 150  # of the film [ms]
 FASTEST = 0.6  # [m/s], of the scale of colours
 
 
@@ -94,25 +95,55 @@ def frame(axes, left, right, title):
     axes.hlines([-hole.HOLE, hole.HOLE], left, right, color="#555555")
 
 
+def side_view(axes, name, file, time, shown):
+    """The bodies of one picture in front of the middle plane, as balls of their volume; the first `shown` metres of the hole."""
+    from matplotlib import cm, collections
+    import numpy
+    bodies = vtp.arrays_of(file)
+    frame(axes, 0, shown, f"{name}, {time:.1f} s, {len(bodies['Points'])} bodies; bodies in front of the middle plane")
+    front = bodies["Points"][:, 0] < 0
+    speed = numpy.linalg.norm(bodies["velocity"][front], axis=1)
+    size = numpy.full(front.sum(), section.DIAMETER)
+    axes.add_collection(collections.EllipseCollection(size, size, 0 * size, units="xy", offsets=bodies["Points"][front][:, [2, 1]],
+                                                      offset_transform=axes.transData, facecolors=cm.viridis(numpy.clip(speed / FASTEST, 0, 1))))
+
+
+def high_of(shown):
+    """Height of a side view with its title [inch]."""
+    return 0.45 + WIDE * 2.2 * hole.HOLE / shown
+
+
 def whole_hole(path, name, case, step, length):
     """Side views of the hole, as far as bodies have come, to scale at several times: a strip of frames."""
-    from matplotlib import cm, collections
     from matplotlib.figure import Figure
-    import numpy
     found = hole.pictures(case)
     shown = hole.reached(hole.history(case, step, length), length)
     chosen = [found[round(k * (len(found) - 1) / TIMES)] for k in range(1, TIMES + 1)] if len(found) > TIMES else found
-    high = 0.45 + WIDE * 2.2 * hole.HOLE / shown  # of a frame with its title [inch]
-    figure = Figure(figsize=(WIDE, high * len(chosen) + 0.3), dpi=100, layout="constrained")
+    figure = Figure(figsize=(WIDE, high_of(shown) * len(chosen) + 0.3), dpi=100, layout="constrained")
     for axes, (number, file) in zip(figure.subplots(len(chosen), 1, squeeze=False).flat, chosen):
-        bodies = vtp.arrays_of(file)
-        frame(axes, 0, shown, f"{name}, {number * step:.1f} s, {len(bodies['Points'])} bodies; bodies in front of the middle plane")
-        front = bodies["Points"][:, 0] < 0
-        speed = numpy.linalg.norm(bodies["velocity"][front], axis=1)
-        size = numpy.full(front.sum(), section.DIAMETER)
-        axes.add_collection(collections.EllipseCollection(size, size, 0 * size, units="xy", offsets=bodies["Points"][front][:, [2, 1]],
-                                                          offset_transform=axes.transData, facecolors=cm.viridis(numpy.clip(speed / FASTEST, 0, 1))))
+        side_view(axes, name, file, number * step, shown)
     figure.savefig(path, metadata={"Software": None})
+
+
+def film(path, name, case, step, length):
+    """All pictures as an animated PNG, which browsers play: the side view, and below it the height of the bed along the hole."""
+    import io
+    from PIL import Image
+    from matplotlib.figure import Figure
+    found, rows = hole.pictures(case), hole.history(case, step, length)
+    shown = hole.reached(rows, length)
+    highest = 1e3 * max(h for row in rows for _, _, h in row["along"])
+    images = []
+    for (number, file), row in zip(found, rows):
+        figure = Figure(figsize=(WIDE, high_of(shown) + 1.6), dpi=60, layout="constrained")
+        above, below = figure.subplots(2, 1, height_ratios=(high_of(shown), 1.6))
+        side_view(above, name, file, number * step, shown)
+        below.fill_between([z for z, _, _ in row["along"]], [1e3 * h for _, _, h in row["along"]], color="#0072b2")
+        below.set(xlim=(0, shown), ylim=(0, 1.05 * highest or 1), xlabel="along the hole [m]", ylabel="bed [mm]")
+        drawn = io.BytesIO()
+        figure.savefig(drawn, format="png")
+        images.append(Image.open(drawn).convert("P", palette=Image.Palette.ADAPTIVE, colors=64))
+    images[0].save(path, format="PNG", save_all=True, append_images=images[1:], duration=FRAME_TIME, loop=0)
 
 
 def piece(path, name, case, step, length, form):

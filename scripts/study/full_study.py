@@ -93,10 +93,11 @@ def level_page(words, chosen, level, case, interval):
         hole.write_csv(words.out / f"{name}-along.csv", pictures)
         full_report.chart(words.out / f"{name}.svg", name, rows, pictures, chosen.length)
         full_pictures.whole_hole(words.out / f"{name}-hole.png", name, case, step, chosen.length)
+        full_pictures.film(words.out / f"{name}-film.png", name, case, step, chosen.length)
         form = full_pictures.form_of(words.build, level, words.out)
         full_pictures.piece(words.out / f"{name}-piece.png", name, case, step, chosen.length, form)
         page.append(f"![{name}: along the hole and in time]({name}.svg)\n\n![{name}: strip of frames]({name}-hole.png)\n\n"
-                    f"![{name}: a piece of the hole at the end]({name}-piece.png)\n")
+                    f"![{name}: film]({name}-film.png)\n\n![{name}: a piece of the hole at the end]({name}-piece.png)\n")
     return page
 
 

@@ -21,6 +21,7 @@ CASES = ROOT / "cases"
 RUN_CASE = BUILD / "bin" / "eccentra-run" if INSTALLED else CASES / "run-coupled"  # what runs a case
 SCENES = pathlib.Path(__file__).resolve().parent / "scenes"
 OPENFOAM = "/usr/share/openfoam"  # of Debian's package, where WM_PROJECT_DIR names no other installation
+PROGRESS = re.compile(r"t \S+ (of \S+ )?s ")  # how a line of progress of annulusFoam begins
 HOSTS = ("liggghts", "libopenfoam", "libopenmpi3", "lammps", "yade")  # Debian packages whose code takes part in results
 said_version = ""  # by the program eccentra
 # What computes, in a build folder, and in the prefix of an installation, which has others' programs beside.
@@ -118,9 +119,9 @@ def output_of(words, folder=None):
 
 
 def sentence_of(log, status):
-    """What a program that failed said: its first line with an error, or how it ended."""
+    """What a program that failed said: its first line with an error, or how it ended. Lines of progress, which tell the errors of a step, are none."""
     lines = pathlib.Path(log).read_text(errors="replace").splitlines()
-    return next((line.strip() for line in lines if "error" in line.lower() and "errorcode" not in line),
+    return next((line.strip() for line in lines if "error" in line.lower() and "errorcode" not in line and not PROGRESS.match(line)),
                 f"ended with status {status}: see {log}")
 
 

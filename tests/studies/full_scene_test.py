@@ -55,6 +55,9 @@ class WholeScene(unittest.TestCase):
         page = (cut / "results.md").read_text()
         self.assertIn("computed in 2 call(s)", page)
         self.assertRegex(page, r"balance is closed to (0\.0e\+00|\d\.\de-1[3-9])")
+        from PIL import Image
+        with Image.open(cut / "S1-film.png") as film:
+            self.assertEqual(film.n_frames, len(list(cut.glob("runs/*/case/postProcessing/eccentra/grains_*.vtp"))))
         for name in ("S1-hole.png", "S1-piece.png", "S1.svg", "beside-the-paper.csv"):
             self.assertGreater((cut / name).stat().st_size, 100)
 
