@@ -133,16 +133,19 @@ def film(path, name, case, step, length):
     found, rows = hole.pictures(case), hole.history(case, step, length)
     shown = hole.reached(rows, length)
     highest = 1e3 * max(h for row in rows for _, _, h in row["along"])
+    wide, low, side, top = WIDE - 1.2, 1.2, (WIDE - 1.2) * 2.2 * hole.HOLE / shown, 0.4  # of the axes and the title: one scale along the hole [inch]
+    high = 0.6 + low + 0.3 + side + top
     images = []
     for (number, file), row in zip(found, rows):
-        figure = Figure(figsize=(WIDE, high_of(shown) + 1.6), dpi=60, layout="constrained")
-        above, below = figure.subplots(2, 1, height_ratios=(high_of(shown), 1.6))
+        figure = Figure(figsize=(WIDE, high), dpi=60)
+        below = figure.add_axes((0.8 / WIDE, 0.6 / high, wide / WIDE, low / high))
+        above = figure.add_axes((0.8 / WIDE, (0.9 + low) / high, wide / WIDE, side / high))
         side_view(above, name, file, number * step, shown)
         below.fill_between([z for z, _, _ in row["along"]], [1e3 * h for _, _, h in row["along"]], color="#0072b2")
         below.set(xlim=(0, shown), ylim=(0, 1.05 * highest or 1), xlabel="along the hole [m]", ylabel="bed [mm]")
         drawn = io.BytesIO()
         figure.savefig(drawn, format="png")
-        images.append(Image.open(drawn).convert("P", palette=Image.Palette.ADAPTIVE, colors=64))
+        images.append(Image.open(drawn).convert("RGB"))
     images[0].save(path, format="PNG", save_all=True, append_images=images[1:], duration=FRAME_TIME, loop=0)
 
 
