@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import tempfile
 
-from .. import levels, options, peer_bed, programs, runs, tables
+from .. import levels, options, peer_bed, peer_heap, programs, runs, tables
 from ..programs import SCENES, Failure, digest_of, run
 
 DIAMETER = 6.35e-3
@@ -227,14 +227,16 @@ def main():
     parser.add_argument("--install", action="store_true", help="installs the Debian packages lammps and yade if they are missing (1 GB)")
     parser.add_argument("--codes", action=options.Words, choices=list(CODES), default=list(CODES), help="default: all")
     parser.add_argument("--shapes", nargs="+", choices=SHAPES, default=list(SHAPES), metavar="SHAPE", help="of: " + ", ".join(SHAPES))
-    parser.add_argument("--scenes", action=options.Words, choices=("drop", "bed", "coupled"), default=["drop", "bed"],
-                        help="coupled: a fluidised bed of spheres beside OpenFOAM's DPMFoam, whatever codes and shapes (default: drop bed)")
+    parser.add_argument("--scenes", action=options.Words, choices=("drop", "bed", "heap", "coupled"), default=["drop", "bed"],
+                        help="heap: a column of cubes with true faces that collapses, ours and yade alone; coupled: a fluidised bed of spheres beside "
+                        "OpenFOAM's DPMFoam, whatever codes and shapes (default: drop bed)")
     parser.add_argument("--bodies", type=options.at_least_one, metavar="N", help="in the bed (default 300)")
-    parser.add_argument("--repeat", type=options.at_least_one, metavar="N", help="the least of so many times, in turn (default 2)")
+    parser.add_argument("--repeat", type=options.at_least_one, metavar="N", help="the least of so many times, in turn; heaps (default 2)")
 
     def check(chosen):
-        chosen.dry = [scene for scene in chosen.scenes if scene != "coupled"]
-        missing = sorted({PROGRAMS[code][1] for code in chosen.codes if chosen.dry and code in PROGRAMS and not shutil.which(PROGRAMS[code][0])})
+        chosen.dry = [scene for scene in chosen.scenes if scene in ("drop", "bed")]
+        taking_part = chosen.codes if chosen.dry else [code for code in chosen.codes if code == "yade"] if "heap" in chosen.scenes else []
+        missing = sorted({PROGRAMS[code][1] for code in taking_part if code in PROGRAMS and not shutil.which(PROGRAMS[code][0])})
         if missing and not chosen.install and not chosen.plan:
             parser.error(f"{' and '.join(missing)} not found: add --install, or leave them out with --codes ours stock")
         chosen.bodies, chosen.repeat = chosen.bodies or (30 if chosen.quick else 300), chosen.repeat or (1 if chosen.quick else 2)
@@ -248,6 +250,7 @@ def main():
     codes, store = chosen.codes, chosen.store
     restitution, cost = {}, {}
     coupled = peer_bed.run(chosen, 0.04 if chosen.quick else 0.2) if "coupled" in chosen.scenes else []
+    heap = peer_heap.rows(chosen) if "heap" in chosen.scenes else []
     for words in chosen.shapes if chosen.dry else []:
         shape = Shape(words, chosen)
         shape.bodies, shape.fill_top = chosen.bodies, chosen.fill_top
@@ -276,6 +279,9 @@ def main():
     if coupled:
         lines.append("A bed of spheres that water fluidises, one core\n\n" + tables.text(peer_bed.HEADER, coupled))
         tables.write_csv(chosen.out / "compare-peers-coupled.csv", peer_bed.HEADER, coupled)
+    if heap:
+        lines.append(f"A column of {peer_heap.BODIES[chosen.quick]} cubes that collapses for {peer_heap.SECONDS[chosen.quick]:g} s, one core\n\n" + tables.text(peer_heap.HEADER, heap))
+        tables.write_csv(chosen.out / "compare-peers-heap.csv", peer_heap.HEADER, heap)
     table = lambda title, of: f"{title}\n\n" + tables.text(["", *chosen.shapes], [[CODES[code], *(
         f"{of[code, shape]:.3f}" if (code, shape) in of else None for shape in chosen.shapes)] for code in codes])
     if restitution:
