@@ -76,3 +76,12 @@ def discharge_rate(frames, bodies):
     start = next(k for k, n in enumerate(inside) if n <= 0.9 * inside[0])
     end = next(k for k, n in enumerate(inside) if n <= 0.5 * inside[0])
     return (inside[start] - inside[end]) / (max(1, end - start) * FRAME), math.nan
+
+
+def steady_discharge(frames, bodies):
+    """Bodies per second, by least squares from 90 to 60 % of those that were there: on a flat bottom some 40 % stay."""
+    inside = [sum(1 for b in frame.values() if b[2] > 0) for frame in frames]
+    span = [k for k, n in enumerate(inside) if 0.6 * inside[0] <= n <= 0.9 * inside[0]]
+    if len(span) < 3:
+        return discharge_rate(frames, bodies)
+    return -statistics.linear_regression([k * FRAME for k in span], [inside[k] for k in span]).slope, math.nan

@@ -174,8 +174,7 @@ class Study:
     def __init__(self, store, build, size, bodies, scenes, names, seeds, output, retime=False, rounding=None):
         """seeds: of each level, or None for those of the size. rounding: of the reference, or None for that of the body."""
         self.retime, self.rounding = retime, rounding
-        more = lambda number: {scene: min(len(dry.SEEDS), number * dry.MORE_SEEDS.get(scene, 1)) for scene in dry.SCENES}
-        self.pilot, self.most = more(seeds or size.seeds), more(seeds or size.most_seeds)
+        self.pilot, self.most = (min(len(dry.SEEDS), number) for number in (seeds or size.seeds, seeds or size.most_seeds))
         self.store, self.build, self.size, self.output = store, build, size, output
         self.bodies, self.scenes, self.names, self.seeds = bodies, scenes, names, seeds or size.seeds
         self.groups, self.failures = [], []
@@ -235,8 +234,8 @@ class Study:
 
     def run_scene(self, body, scene, chosen, jobs, results):
         """Runs the levels of a body in a dry scene: the pilot, then seeds until the errors are small enough, to the most allowed."""
-        most = self.most[scene]
-        wanted = dict.fromkeys((level.name for level in chosen), self.pilot[scene])
+        most = self.most
+        wanted = dict.fromkeys((level.name for level in chosen), self.pilot)
         while chosen:
             for level in chosen:
                 for seed in dry.SEEDS[: wanted[level.name]]:
