@@ -11,7 +11,7 @@ from .programs import CASES, digest_of, run
 FRAME = frames.FRAME
 
 
-def write_ring(path, inner=0.016, outer=0.03, parts=48):
+def write_ring(path, inner, outer, parts=48):
     """The bottom of the silo: a plane ring as STL."""
     point = lambda r, k: f"vertex {r * math.cos(2 * math.pi * k / parts):.9g} {r * math.sin(2 * math.pi * k / parts):.9g} 0"
     with open(path, "w") as out:
@@ -32,17 +32,29 @@ def heap_slope(dumped, bodies):
 
 # name: (what, unit, measure, bodies, bodies with --quick); the first two are those of cases/rolling-comparison
 SCENES = {
-    "heap": ("slope of a heap", "degrees", heap_slope, 220, 100),
+    "heap": ("slope of a heap", "degrees", heap_slope, 600, 220),
     "drum": ("angle of the bed in a drum at 30 rpm", "degrees", frames.drum_angle, 160, 110),
     "hopper": ("discharge of a hopper", "bodies/s", frames.steady_discharge, 800, 500),
 }
-# In an orifice of seven diameters bodies do not jam, and more of them leave in a steady flow than through the five of cases/rolling-comparison.
-ORIFICE = 0.022  # radius [m]
-SILO = {"silo": 0.035, "tall": 0.45, "settling": 7, "flowing": 8}  # variables of in.hopper
+# In an orifice of seven diameters bodies do not jam, and more of them leave in a steady flow than through the five of cases/rolling-comparison,
+# which takes fewer bodies.
+MANY = {"heap": 220, "hopper": 400}  # from here on scenes are larger than those of the cases
+RING = {False: (0.016, 0.03), True: (0.022, 0.04)}  # radii of the orifice and of the bottom around it, by whether there are many [m]
+SILO = {"silo": 0.035, "tall": 0.45, "settling": 7, "flowing": 8}  # variables of in.hopper for many
 SCENE = CASES / "rolling-comparison"
 # Where bodies are poured; primes, which LIGGGHTS asks for, and none that the scenes use for something else.
 SEEDS = (15485863, 32452843, 49979687, 67867967, 86028121, 15485867, 32452867, 49979693, 67867979, 86028157,
          15485917, 86028221, 86028223, 86028259, 86028269, 86028277, 86028301, 86028323, 86028329, 86028343)
+
+
+def size_words(scene, bodies):
+    """Variables of the scene's script that give room to many bodies; a column of a heap keeps its proportions."""
+    if bodies <= MANY.get(scene, bodies):
+        return {}
+    if scene == "hopper":
+        return SILO
+    tube = 0.02 * (bodies / MANY["heap"]) ** (1 / 3)
+    return {"tube": f"{tube:.6g}", "tall": 0.45, "wide": f"{7.5 * tube:.6g}", "settling": 5}
 
 
 def dry_job(build, scene, level, seed, bodies, step):
@@ -51,8 +63,9 @@ def dry_job(build, scene, level, seed, bodies, step):
     variables = {"seed": seed, "bodies": bodies, "shape": level.shape, "clusters": int(clusters), "step": f"{step:.9g}",
                  "mu_r": 0, "mu_shape": level.mu, "rolling": "off", "words": "tangential_damping on",
                  "wall_words": "tangential_damping on"}
-    if scene == "hopper":
-        variables |= SILO
+    larger = size_words(scene, bodies)
+    variables |= larger
+    ring = RING[bool(larger)] if scene == "hopper" else ()
     if level.kind == "friction":
         variables |= {"rolling": "shape", "words": "form limited", "wall_words": "form limited"}
     if level.slide is not None:
@@ -60,11 +73,11 @@ def dry_job(build, scene, level, seed, bodies, step):
     if level.kind == "eccentric":
         variables |= {"rolling": "eccentric", "words": f"shape {level.shape}"}
     inputs = {"what": "dry", "scene": digest_of(SCENE / f"in.{scene}", SCENE / "bodies.in"),
-              **variables, "shape": shape_key(level.shape)}
+              **variables, "shape": shape_key(level.shape), "ring": ring}
 
     def work(folder):
-        if scene == "hopper":
-            write_ring(folder / "ring.stl", ORIFICE, SILO["silo"] + 0.005)
+        if ring:
+            write_ring(folder / "ring.stl", *ring)
         line = [build / "bin" / "eccentra-dem", "-in", SCENE / f"in.{scene}", "-log", "none", *programs.variables(here=SCENE, **variables)]
         cpu, wall, _ = run(line, folder, folder / "out.txt")
         dumped = frames.read_frames(folder / "frames.dump")

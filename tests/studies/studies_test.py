@@ -18,7 +18,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("ECCENTRA_BUILD", ROOT / "build"))
 sys.path.insert(0, str(ROOT / "scripts"))
-from study import (annulus_scene, charts, cohesion, convergence, grain_shapes, ladders, level_study, levels, loop_data, measures,  # noqa: E402
+from study import (annulus_scene, charts, cohesion, convergence, frames, grain_shapes, ladders, level_study, levels, loop_data, measures,  # noqa: E402
                    patch_walls, power, programs, runs, scene_bed, scene_grains, section, shape_levels, tables, timing, truth_chart, user_scene,
                    user_study, wedge)
 from study.commands import creeping_drag  # noqa: E402
@@ -593,6 +593,16 @@ class HardCases(unittest.TestCase):
             self.assertFalse(check.holds(check.value({"run": None}), 0))
 
 
+class Frames(unittest.TestCase):
+    def test_discharge_is_the_slope_while_bodies_flow_freely(self):
+        # 500 bodies/s from the fourth frame on, until 350 of 1000 stay.
+        inside = [1000] * 3 + [max(350, 1000 - 5 * k) for k in range(200)]
+        frame = lambda n: {k: (0, 0, 0.1 if k < n else -0.1, 0, 0, 0) for k in range(1000)}
+        self.assertAlmostEqual(frames.steady_discharge([frame(n) for n in inside], 1000)[0], 500)
+        # Too quick for a fit: from 90 to 50 % in one frame.
+        self.assertAlmostEqual(frames.steady_discharge([frame(n) for n in (1000, 895, 500, 400)], 1000)[0], 395 / frames.FRAME)
+
+
 class Charts(unittest.TestCase):
     def drawn(self, *panels):
         import xml.etree.ElementTree
@@ -651,6 +661,15 @@ class Runs(unittest.TestCase):
                 self.assertEqual(store.run_all("t", [job], said.append), {job.key(): {"value": 3}})
             self.assertEqual(len(calls), 2)
             self.assertIn("a run: FAILED: it broke", said[1])
+
+    def test_what_a_failed_program_said_is_no_line_of_progress(self):
+        with tempfile.TemporaryDirectory() as folder:
+            log = pathlib.Path(folder) / "out.txt"
+            log.write_text("t 0 s    0 %  left 0 s | 0 particles | errors: volume 0.0e+00\nt 1 of 2 s  dt 1 s  error 1\n"
+                           "annulusFoam: error: in the DEM script: too long\nerrorcode 1\n")
+            self.assertEqual(programs.sentence_of(log, 1), "annulusFoam: error: in the DEM script: too long")
+            log.write_text("t 0 s    0 % | errors: volume 0.0e+00\n")
+            self.assertIn("ended with status 3", programs.sentence_of(log, 3))
 
     def test_results_of_another_build_are_repeated_unless_asked_for(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -103,7 +103,7 @@ def scene_job(chosen, scene, name, seed, program="eccentra-dem", turn=None):
               "program": program, **described(variables), **({} if turn is None else {"turn": turn})}
 
     def work(folder):
-        dry.write_ring(folder / "ring.stl")
+        dry.write_ring(folder / "ring.stl", *dry.RING[False])
         line = [program if program == "liggghts" else chosen.build / "bin" / program, "-in", SCENE / f"in.{scene}", "-log", "none"]
         cpu, *_ = run([*line, *programs.variables(here=SCENE, **variables)], folder, folder / "out.txt")
         return {"cpu": cpu} if turn is not None else result_of(scene, frames.read_frames(folder / "frames.dump"), folder, cpu, seed)

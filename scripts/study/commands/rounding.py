@@ -13,7 +13,7 @@ CLUSTERS = {"cube": (8, 27, 64, 125), "disk": (7, 19, 48, 80)}
 STEP = 2.5e-5  # of dry scenes [s]; 0.2 of the smallest critical step of these bodies
 COLOURS = {"cluster": charts.COLOURS[1], "smooth": charts.COLOURS[0]}
 AXES = {"cube": "radius of the corners over half the edge", "disk": "radius of the rim over that of the disk"}
-HEAPS = {"heap": dry.SCENES["heap"][4], "heap-220": 220, "heap-1000": 1000}  # bodies
+HEAPS = {"heap": 100, "heap-220": 220, "heap-1000": 1000}  # bodies
 
 
 @dataclasses.dataclass(frozen=True)
@@ -37,7 +37,7 @@ class DryScene:
 
 
 SCENES = {name: DryScene(name, "heap", bodies) for name, bodies in HEAPS.items()}
-SCENES |= {name: DryScene(name, name, dry.SCENES[name][4]) for name in ("drum", "hopper")}
+SCENES |= {"drum": DryScene("drum", "drum", dry.SCENES["drum"][4]), "hopper": DryScene("hopper", "hopper", 140)}  # that of the case
 SCENES |= {name: annulus_scene.AnnulusScene(name, 1.0) for name in ("annulus-40", "annulus-80")}  # of bodies that have their shape: no sphericity
 QUICK = ("heap",)
 
