@@ -6,7 +6,7 @@ import math
 import pathlib
 import tempfile
 
-from .. import annulus_scene, charts, dry, level_study, levels, measures, options, programs, runs, tables
+from .. import annulus_scene, charts, dry, level_study, levels, measures, options, programs, runs, section, tables
 
 ROUNDINGS = {"cube": (0.4, 0.3, 0.2, 0.15, 0.1), "disk": (0.6, 0.3, 0.15)}  # of smooth bodies beside those of the clusters
 CLUSTERS = {"cube": (8, 27, 64, 125), "disk": (7, 19, 48, 80)}
@@ -85,6 +85,10 @@ def is_coupled(name):
     return name in annulus_scene.NAMES
 
 
+def seeds_of(name):
+    return section.SEEDS if is_coupled(name) else dry.SEEDS
+
+
 def critical_steps(words, shapes):
     """{(body, name of a level): critical step [s], or not a number where it is not known yet}."""
     steps = {(body, level.name): levels.step_job(words.build, level, level_study.RESTITUTION_SECTION) for body in shapes for _, level in shapes[body]}
@@ -104,7 +108,7 @@ def main():
                             quick="heaps of cubes, three seeds, where --scenes, --bodies or --seeds do not say more")
     parser.add_argument("--scenes", action=options.Words, choices=tuple(SCENES), help="default: all")
     parser.add_argument("--bodies", action=options.Words, choices=tuple(CLUSTERS), help="what the shapes stand for (default: both)")
-    parser.add_argument("--seeds", type=options.at_least_one, help=f"runs of each shape in each scene, up to {len(dry.SEEDS)} (default: 6)")
+    parser.add_argument("--seeds", type=options.at_least_one, help=f"runs of each shape in each scene, up to {len(dry.SEEDS)}, in the annulus {len(section.SEEDS)} (default: 6)")
 
     chosen_of = lambda words: words.scenes or (QUICK if words.quick else tuple(SCENES))
 
@@ -120,7 +124,7 @@ def main():
     shapes = {body: pairs(words.build, body, words.out) for body in words.bodies}
     critical = critical_steps(words, shapes) if any(map(is_coupled, words.scenes)) else {}
     jobs = {(scene, body, level.name, seed): SCENES[scene].job(words.build, level, seed, critical.get((body, level.name)))
-            for scene in words.scenes for body in words.bodies for _, level in shapes[body] for seed in dry.SEEDS[: words.seeds]
+            for scene in words.scenes for body in words.bodies for _, level in shapes[body] for seed in seeds_of(scene)[: words.seeds]
             if not is_coupled(scene) or not math.isnan(critical[body, level.name])}
     results = {}
     for scene in words.scenes:
@@ -133,7 +137,7 @@ def main():
         for body in words.bodies:
             rows, series = [], {kind: charts.Series(f"{kind} {body}s", [], COLOURS[kind]) for kind in COLOURS}
             for place, level in shapes[body]:
-                every = [results[jobs[key].key()] for key in ((name, body, level.name, seed) for seed in dry.SEEDS[: words.seeds]) if key in jobs]
+                every = [results[jobs[key].key()] for key in ((name, body, level.name, seed) for seed in seeds_of(name)) if key in jobs]
                 failed += [f"{name}, {level.name}: {r['failed']}" for r in every if "failed" in r]
                 good = [r for r in every if runs.good(r)]
                 value, error = measures.mean_and_error([scene.value(r) for r in good])
