@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The law of rounded bodies beside the rule that codes for spheropolyhedra publish (Rockable; exaDEM): a spring for each
-// pair of features whose closest points lie inside of both.
+// The law of rounded bodies beside the rule that codes for spheropolyhedra publish (Rockable; exaDEM): a spring for
+// each pair of features whose closest points lie inside of both.
 #include "contact/manifold_poses.h"
 
 #include <gtest/gtest.h>
@@ -50,14 +50,17 @@ double springs_by_parts(const Vector3d& half, const Vector3d& p, double reach, d
 class CornerOverEdge : public testing::Test {
  protected:
   CornerOverEdge() : cube(made("smooth cube rounding .15")) {
-    down.pose(cube, Eigen::Quaterniond::FromTwoVectors(Vector3d(-1, -1, -1), -Vector3d::UnitZ()).toRotationMatrix());
+    const Vector3d diagonal = Vector3d(-1, -1, -1).normalized(), low = -Vector3d::UnitZ();
+    down.pose(cube, AngleAxisd(std::acos(diagonal.dot(low)), diagonal.cross(low).normalized()).toRotationMatrix());
     flat.pose(cube, Matrix3d::Identity());
   }
 
   double reach() const { return 2 * cube.radius; }
   double depth() const { return 0.05 * cube.radius; }
   /// Of the corner of the core, from the centre of the lower cube; `out`: beyond the edge.
-  Vector3d corner(double out) const { return {cube.half.x() + out, 0.1 * cube.half.y(), cube.half.z() + reach() - depth()}; }
+  Vector3d corner(double out) const {
+    return {cube.half.x() + out, 0.1 * cube.half.y(), cube.half.z() + reach() - depth()};
+  }
 
   /// Force in units of one spring at the depth, by our law.
   double ours(double out) const {
@@ -79,7 +82,8 @@ TEST_F(CornerOverEdge, ByPartsTheSpringsOfAFaceAndAnEdgeAddAndOneGoes) {
 }
 
 TEST_F(CornerOverEdge, OursIsOneSpringWithoutAJump) {
-  const double margin = std::sqrt(reach() * reach() - std::pow(reach() - depth(), 2)); // where the edge comes into reach
+  const double margin =
+      std::sqrt(reach() * reach() - std::pow(reach() - depth(), 2)); // where the edge comes into reach
   double before = ours(-2 * margin), largest = 0;
   EXPECT_NEAR(before, 1, 1e-12);
   constexpr int kSteps = 4000;
@@ -87,8 +91,9 @@ TEST_F(CornerOverEdge, OursIsOneSpringWithoutAJump) {
     const double out = 3 * margin * k / kSteps - 2 * margin, force = ours(out);
     largest = std::max(largest, std::abs(force - before));
     before = force;
-    if (out <= 0)
+    if (out <= 0) {
       EXPECT_NEAR(force, 1, 1e-12) << out;
+    }
   }
   EXPECT_NEAR(before, 0, 1e-3); // out of touch
   // Beyond the edge it falls from 1 to 0 over the margin, with a slope of at most some 3 / margin.
