@@ -280,7 +280,8 @@ def main():
         lines.append("A bed of spheres that water fluidises, one core\n\n" + tables.text(peer_bed.HEADER, coupled))
         tables.write_csv(chosen.out / "compare-peers-coupled.csv", peer_bed.HEADER, coupled)
     if heap:
-        lines.append(f"A column of {peer_heap.BODIES[chosen.quick]} cubes that collapses for {peer_heap.SECONDS[chosen.quick]:g} s, one core\n\n" + tables.text(peer_heap.HEADER, heap))
+        lines.append(f"A column of {peer_heap.BODIES[chosen.quick]} cubes that collapses for {peer_heap.SECONDS[chosen.quick]:g} s, one core\n\n"
+                     + tables.text(peer_heap.HEADER, heap))
         tables.write_csv(chosen.out / "compare-peers-heap.csv", peer_heap.HEADER, heap)
     table = lambda title, of: f"{title}\n\n" + tables.text(["", *chosen.shapes], [[CODES[code], *(
         f"{of[code, shape]:.3f}" if (code, shape) in of else None for shape in chosen.shapes)] for code in codes])

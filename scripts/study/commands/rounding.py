@@ -108,7 +108,8 @@ def main():
                             quick="heaps of cubes, three seeds, where --scenes, --bodies or --seeds do not say more")
     parser.add_argument("--scenes", action=options.Words, choices=tuple(SCENES), help="default: all")
     parser.add_argument("--bodies", action=options.Words, choices=tuple(CLUSTERS), help="what the shapes stand for (default: both)")
-    parser.add_argument("--seeds", type=options.at_least_one, help=f"runs of each shape in each scene, up to {len(dry.SEEDS)}, in the annulus {len(section.SEEDS)} (default: 6)")
+    parser.add_argument("--seeds", type=options.at_least_one,
+                        help=f"runs of each shape in each scene, up to {len(dry.SEEDS)}, in the annulus {len(section.SEEDS)} (default: 6)")
 
     chosen_of = lambda words: words.scenes or (QUICK if words.quick else tuple(SCENES))
 
