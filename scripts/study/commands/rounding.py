@@ -145,7 +145,7 @@ def main():
                 cpu, _ = measures.mean_and_error([r["cpu"] for r in good])
                 rows.append([level.name, kind_of(level), place, value, error, len(good), cpu])
                 if not math.isnan(value):
-                    series[kind_of(level)].points.append(charts.Point(place, value, error, level.name))
+                    series[kind_of(level)].points.append(charts.Point(place, value, error, level.name if kind_of(level) == "cluster" else ""))
             rows.sort(key=lambda row: (-row[2], row[1]))
             header = ["shape", "kind", "rounding", scene.unit(), "+-", "runs", "CPU s"]
             page.append(tables.publish(words, f"{name}-{body}", f"{scene.title()} ({body})", header, rows))
