@@ -87,7 +87,7 @@ def binary_stl(facets, count=None):
 def section(source):
     """Files of a small coupled section, from the case that ships with the source."""
     case = pathlib.Path(source) / "cases" / "tomren-section"
-    files = {str(path.relative_to(case)): path.read_text() for path in case.rglob("*") if path.is_file()}
+    files = {str(path.relative_to(case)): path.read_text() for path in case.rglob("*") if path.is_file() and path.suffix != ".png"}
     files["system/annulusMeshDict"] = ("FoamFile { version 2.0; format ascii; class dictionary; object annulusMeshDict; }\nholeRadius 0.0635; "
         "pipeRadius 0.02413; eccentricity 0.5; length 0.3; inclination 80; cells (3 16 4); ends periodic;\n")
     files["system/controlDict"] = ("FoamFile { version 2.0; format ascii; class dictionary; object controlDict; }\nstartTime 0; endTime 1000; "
