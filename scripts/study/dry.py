@@ -38,7 +38,7 @@ SCENES = {
 }
 # Through an orifice of nine diameters cubes flow without jams; through the five of cases/rolling-comparison, which takes fewer bodies, and through
 # seven the rate of one seed is twice that of another.
-MANY = {"heap": 220, "hopper": 400}  # from here on scenes are larger than those of the cases
+MANY = {"heap": 220, "hopper": 400}  # with more bodies a scene is larger than that of the case
 RING = {False: (0.016, 0.03), True: (0.028, 0.047)}  # radii of the orifice and of the bottom around it, by whether there are many [m]
 SILO = {"silo": 0.042, "tall": 0.45, "settling": 7, "flowing": 5}  # variables of in.hopper for many
 SCENE = CASES / "rolling-comparison"
