@@ -9,6 +9,13 @@ RADIUS = DIAMETER / 2
 FRAME = 0.01  # between two frames of the hopper [s]
 
 
+def last_rows(path):
+    """The numbers of the last frame of a dump of any columns."""
+    lines = path.read_text().splitlines()
+    last = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS"))
+    return [tuple(map(float, line.split())) for line in lines[last + 1:]]
+
+
 def read_frames(path):
     """Frames of a dump: a list of {id: (x, y, z, vx, vy, vz)}."""
     frames, lines = [], path.read_text().splitlines()

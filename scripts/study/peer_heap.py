@@ -4,7 +4,7 @@
 import json
 import re
 
-from . import dry, levels, measures, programs, runs
+from . import dry, frames, levels, measures, programs, runs
 from .programs import SCENES, digest_of, run
 
 SCRIPT, YADE = SCENES / "peers_heap.in", SCENES / "peers_heap_yade.py"
@@ -14,14 +14,7 @@ ROUNDINGS = (0.1, 0.02)
 STEPS = {"ours": 2.5e-5, "yade": 5e-5}  # [s]; a face of Yade's cubes swings in 7e-4 s
 STIFFNESS, SHEAR = 1e9, 0.3  # of Yade's law, force over the volume that overlaps [N/m3], and of its tangential spring over it
 DAMPING = 0.3  # of Yade: it opposes each force, as its polyhedra have no restitution
-HEADER = ["", "heaps", "slope [degrees]", "+-", "CPU s of a collapse", "times ours"]
-
-
-def rows_of(path):
-    """Of the last frame of a dump, without the number of the body."""
-    lines = path.read_text().splitlines()
-    last = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS"))
-    return [tuple(map(float, line.split()[1:])) for line in lines[last + 1:]]
+HEADER = ["", "heaps", "slope [degrees]", "+-", "s of a collapse", "times ours"]
 
 
 def slope(bodies):
@@ -36,8 +29,8 @@ def ours_job(build, rounding, seed, bodies, seconds):
     def work(folder):
         run([build / "bin" / "eccentra-dem", "-in", SCRIPT, "-log", "none", *programs.variables(**words)], folder, folder / "out.txt")
         loops = re.findall(r"^Loop time of (\S+)", (folder / "out.txt").read_text(), re.MULTILINE)
-        angle, speed = slope(rows_of(folder / "heap.dump"))
-        return {"slope": angle, "speed": speed, "cpu": max(map(float, loops[2:]))}  # the collapse is the longest after pouring
+        angle, speed = slope([row[1:] for row in frames.last_rows(folder / "heap.dump")])
+        return {"slope": angle, "speed": speed, "cpu": max(map(float, loops[2:]))}  # wall clock of the collapse, the longest run after pouring
 
     return runs.Job(f"heap of cubes {rounding:g}, seed {seed}", {"what": "peers, heap", "scene": digest_of(SCRIPT), **words}, work, 10)
 
@@ -49,7 +42,7 @@ def yade_job(build, column, seed, bodies, seconds):
 
     def work(folder):
         volume = levels.measured(build, f"smooth cube rounding {ROUNDINGS[-1]:g}", "--diameter", DIAMETER)["volume"]
-        places = [(row[:3], row[3:]) for row in rows_of(column / "column.dump")]
+        places = [(row[1:4], row[4:]) for row in frames.last_rows(column / "column.dump")]
         (folder / "scene.json").write_text(json.dumps(given | {"half": volume ** (1 / 3) / 2, "bodies": places}))
         (folder / "result.json.yade").unlink(missing_ok=True)
         run(["yade", "-n", "-x", "-j", "1", YADE], folder, folder / "out.txt")

@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import tempfile
 
-from .. import levels, options, peer_bed, peer_heap, programs, runs, tables
+from .. import frames, levels, options, peer_bed, peer_heap, programs, runs, tables
 from ..programs import SCENES, Failure, digest_of, run
 
 DIAMETER = 6.35e-3
@@ -108,12 +108,6 @@ def liggghts(build, folder, log, **given):
     return run([build / "bin" / "eccentra-dem", "-in", script, "-log", "none", *programs.variables(script=script, **given)], folder, folder / log).cpu
 
 
-def dump_rows(path):
-    lines = path.read_text().splitlines()
-    last = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS"))
-    return [tuple(map(float, line.split())) for line in lines[last + 1:]]
-
-
 def write_lammps(folder, shape, bodies, velocity, periodic):
     """The files `data` and `masses` of a run: sub-spheres, and the exact mass and inertia of the bodies."""
     atoms, molecules, velocities, masses = [], [], [], []
@@ -183,7 +177,7 @@ def drop_job(build, code, shape):
         else:
             write_lammps(folder, shape, bodies, -DROP_SPEED, False)
             cpu = lammps(folder, "out.txt", **of_lammps(code, shape, True), steps=DROP_STEPS)
-        rows = dump_rows(folder / "drop.dump")
+        rows = frames.last_rows(folder / "drop.dump")
         return {"restitution": sum(row[1] for row in rows) / len(rows) / DROP_SPEED, "cpu": cpu}
 
     return runs.Job(f"drop of {shape.words}: {code}", inputs_of("drop", code, shape), work, 5)
@@ -193,7 +187,7 @@ def settled_job(build, code, shape):
     """A bed that has come to rest; restart and dump stay in the job's folder."""
     def work(folder):
         cpu = liggghts(build, folder, "out.txt", phase=0, **of_liggghts(code, shape))
-        return {"bodies": len(dump_rows(folder / "bed.dump")), "cpu": cpu}
+        return {"bodies": len(frames.last_rows(folder / "bed.dump")), "cpu": cpu}
 
     return runs.Job(f"settling {shape.bodies} {shape.words}: {code}", inputs_of("settled", code, shape, bodies=shape.bodies), work, 30)
 
@@ -206,7 +200,7 @@ def bed_job(build, code, shape, steps, turn, settled):
             given = of_liggghts(code, shape)
             times = [liggghts(build, folder, "out.txt", phase=1, **given, steps=n) for n in (WARM_UP, WARM_UP + steps)]
         else:  # they start from our settled bed: places and orientations
-            bodies = [(row[1:4], row[4:8]) for row in sorted(dump_rows(settled["ours"] / "bed.dump"))]
+            bodies = [(row[1:4], row[4:8]) for row in sorted(frames.last_rows(settled["ours"] / "bed.dump"))]
             if code == "yade":
                 times = [0.0, yade(folder, shape, False, bodies, 0.0, steps)[0]]
             else:
