@@ -7,7 +7,12 @@ import math
 from . import charts, measures, runs, section, tables
 
 LENGTH, CONCENTRATION, VELOCITY = 0.15, 0.05, 0.58
+TURBULENT = 1.165  # velocity at which the wide gap is turbulent (docs/turbulence.md) [m/s]
 DEM_STEP = 5e-3 / 64
+DISKS = {"shape": "disk 48", "interval": 192}  # DEM steps for clusters: 0.3 of what is critical while they collide
+CUBES = {"shape": "cube 8", "interval": 128}
+BED = (80,)  # inclinations at which bodies come to rest
+PANELS = 5  # of a chart in a row
 BASE = {"velocity": VELOCITY, "length": LENGTH, "cells": "8 32 10", "fluid_step": 5e-3, "interval": 64, "safety": 2}
 PERCENT = 2.0  # the accuracy that the plain words ask for
 RESULTS = ("gradient", "flux", "height")  # of section.QUANTITIES
@@ -20,6 +25,17 @@ class Size:
     seeds: int
     seconds: float
     finest: bool
+    clusters: bool = True  # whether the families of bodies that are no spheres are there
+
+
+@dataclasses.dataclass(frozen=True)
+class Family:
+    """what: in words; variants: {name: options that differ from BASE}; reference: the name that the others are compared with."""
+    what: str
+    variants: dict
+    reference: str
+    velocity: float = VELOCITY
+    inclinations: tuple = ()  # empty: all
 
 
 def _fluid_steps(momentum):
@@ -28,8 +44,9 @@ def _fluid_steps(momentum):
             for step in (0.02, 0.01, 0.005, 0.002, 0.001)}
 
 
-def families(finest):
-    """{family: (what, {name: options that differ from BASE}, name of the reference)}."""
+def families(size, inclination):
+    """{name: Family} at an inclination."""
+    finest = size.finest
     meshes = ("4 16 5", "6 24 8", "8 32 10", "12 48 15") + (("16 64 20",) if finest else ())
     explicit = _fluid_steps("explicit")
     if not finest:
@@ -37,19 +54,34 @@ def families(finest):
     dem = {f"{5e-3 / n * 1e6:.0f} us": {"interval": n} for n in (20, 32, 64, 128) + ((256,) if finest else ())}
     viscosities = {f"{model} {most:g}": {"viscosity": f"{model} {most:g}", "tau0": 1}
                    for model, mosts in (("capped", (1, 10, 100, 1000)), ("regularised", (10, 100, 1000))) for most in mosts}
-    return {
-        "mesh": ("cells (gap x around x along)", {m.replace(" ", "x"): {"cells": m} for m in meshes}, meshes[-1].replace(" ", "x")),
-        "fluid step": ("fluid step = coupling interval, drag semi-implicit or explicit in the fluid",
-                       _fluid_steps("semiImplicit") | explicit, "1 ms"),
-        "DEM step": ("DEM step", dem, list(dem)[-1]),
-        "void fraction": ("void-fraction method", {w: {"void-fraction": w} for w in ("centre", "divided", "gaussian", "diffusion")},
-                          "diffusion"),
-        "regularisation": ("largest viscosity [Pa s] at tau0 = 1 Pa, and the model", viscosities, "capped 1000"),
+    tolerances = {", ".join(pair): {"tolerances": pair} for pair in (("1e-2", "1e-2"), ("1e-3", "1e-4"), ("1e-4", "0"), ("1e-7", "0"))}
+    forms = {form: {"tau0": 1, "effects": f"drag chien pressure_gradient on yield_form {form}"} for form in section.FORMS}
+    models = {model: {"turbulence": model} for model in ("laminar", "realizableKE", "kOmegaSST", "kEpsilon")}
+    made = {
+        "mesh": Family("cells (gap x around x along)", {m.replace(" ", "x"): {"cells": m} for m in meshes}, meshes[-1].replace(" ", "x")),
+        "fluid step": Family("fluid step = coupling interval, drag semi-implicit or explicit in the fluid",
+                             _fluid_steps("semiImplicit") | explicit, "1 ms"),
+        "tolerance": Family("relTol of the last correction of pressure, velocity", tolerances, list(tolerances)[-1]),
+        "DEM step": Family("DEM step", dem, list(dem)[-1]),
+        "void fraction": Family("void-fraction method", {w: {"void-fraction": w} for w in ("centre", "divided", "gaussian", "diffusion")}, "diffusion"),
+        "regularisation": Family("largest viscosity [Pa s] at tau0 = 1 Pa, and the model", viscosities, "capped 1000"),
+        "yield form": Family("drag beside the yield stress at tau0 = 1 Pa: yield_form", forms, section.FORMS[-1]),
+        "turbulence": Family("turbulence model", models, "kEpsilon", TURBULENT),
     }
+    if size.clusters:
+        made["forces"] = Family("forces on D48 as on the sphere of equal volume, or oriented, of the real shape",
+                                {forces: {"effects": section.effects_of(forces), **DISKS} for forces in section.FORCES}, "oriented")
+        made["sleep"] = Family("C8 at rest, awake or asleep (fix sleep/cluster)", {name: {"sleep": k, **CUBES} for k, name in enumerate(("awake", "asleep"))},
+                               "awake", inclinations=BED)
+    return {name: family for name, family in made.items() if not family.inclinations or inclination in family.inclinations}
 
 
 def _remark(row):
     return "failed" if row["failed"] else "not run" if math.isnan(row["cpu"]) else "reference" if row["reference"] else ""
+
+
+def _percent(row):
+    return [100 * value for value in row["deviation"]]
 
 
 def _plain_words(rows):
@@ -71,22 +103,26 @@ class Study:
 
     def run(self):
         jobs = {}
-        for inclination in self.size.inclinations:
-            for family, (_, variants, _) in families(self.size.finest).items():
-                for name, change in variants.items():
-                    for seed in section.SEEDS[: self.size.seeds]:
-                        words = {**BASE, "inclination": inclination, "seconds": self.size.seconds, "seed": seed,
-                                 "count": section.bodies_at(CONCENTRATION, LENGTH), **change}
-                        jobs[inclination, family, name, seed] = section.section_job(
-                            self.build, f"{family} {name}, {inclination} deg, seed {seed}", words)
+        for inclination, name, family in self.every():
+            for variant, change in family.variants.items():
+                for seed in section.SEEDS[: self.size.seeds]:
+                    words = {**BASE, "velocity": family.velocity, "inclination": inclination, "seconds": self.size.seconds, "seed": seed,
+                             "count": section.bodies_at(CONCENTRATION, LENGTH), **change}
+                    tolerances = words.pop("tolerances", None)
+                    spheres = int(words["shape"].split()[1]) if "shape" in words else 1
+                    jobs[inclination, name, variant, seed] = section.section_job(
+                        self.build, f"{name} {variant}, {inclination} deg, seed {seed}", words, spheres=spheres, tolerances=tolerances)
         found = self.store.run_all("methods", jobs.values())
-        for inclination in self.size.inclinations:
-            for family, (_, variants, reference) in families(self.size.finest).items():
-                self.family(inclination, family, variants, reference,
-                            {key[2:]: found[job.key()] for key, job in jobs.items() if key[:2] == (inclination, family)})
+        for inclination, name, family in self.every():
+            self.compare(inclination, name, family, {key[2:]: found[job.key()] for key, job in jobs.items() if key[:2] == (inclination, name)})
         return self.failures
 
-    def family(self, inclination, family, variants, reference, results):
+    def every(self):
+        """(inclination, name, Family) of all tables."""
+        return [(inclination, name, family) for inclination in self.size.inclinations for name, family in families(self.size, inclination).items()]
+
+    def compare(self, inclination, family, of, results):
+        variants, reference = of.variants, of.reference
         means = {}
         for name in variants:
             every = [r for (n, _), r in results.items() if n == name]
@@ -115,20 +151,18 @@ class Study:
     def write(self):
         lines, page, panels = [], ["## Methods of the coupling\n", "![methods](methods.svg)\n"], []
         missing = []
-        header = ["method", "Pa/m", "+-", "off %", "+-", "centre mm", "off %", "CPU s", ""]
-        for inclination in self.size.inclinations:
-            for family, (what, variants, reference) in families(self.size.finest).items():
-                gradient, height = (self.of(inclination, family, q) for q in ("gradient", "height"))
-                if all(math.isnan(g["cpu"]) and not g["failed"] for g in gradient):
-                    missing.append(f"{family} at {inclination} degrees")
-                    continue
-                table = [[g["name"], *g["value"], 100 * g["deviation"][0], 100 * g["deviation"][1], 1e3 * h["value"][0],
-                          100 * h["deviation"][0], g["cpu"], _remark(g)]
-                         for g, h in zip(gradient, height)]
-                title = f"{inclination} degrees, {VELOCITY} m/s: {what}"
-                lines += [title, "", tables.text(header, table)]
-                page += [f"### {title}\n", tables.markdown(header, table), _plain_words(gradient)]
-                panels.append(self.panel(inclination, family, gradient, reference))
+        header = ["method", "Pa/m", "+-", "off %", "+-", "flux cm3/s", "off %", "+-", "centre mm", "off %", "CPU s", ""]
+        for inclination, name, family in self.every():
+            gradient, flux, height = (self.of(inclination, name, q) for q in RESULTS)
+            if all(math.isnan(g["cpu"]) and not g["failed"] for g in gradient):
+                missing.append(f"{name} at {inclination} degrees")
+                continue
+            table = [[g["name"], *g["value"], *_percent(g), 1e6 * f["value"][0], *_percent(f), 1e3 * h["value"][0], _percent(h)[0], g["cpu"], _remark(g)]
+                     for g, f, h in zip(gradient, flux, height)]
+            title = f"{inclination} degrees, {family.velocity:g} m/s: {family.what}"
+            lines += [title, "", tables.text(header, table)]
+            page += [f"### {title}\n", tables.markdown(header, table), _plain_words(gradient)]
+            panels.append(self.panel(inclination, name, gradient, family.reference))
         if missing:
             page.append(f"Not run: {'; '.join(missing)}.\n")
         text = "\n".join(lines)
@@ -140,9 +174,8 @@ class Study:
                           for r in self.rows])
         if not panels:
             return ["## Methods of the coupling\n", "Not run.\n"]
-        in_a_row = math.ceil(len(panels) / len(self.size.inclinations))  # a row of panels for each inclination
         charts.write(self.output / "methods.svg", "What the methods of the coupling cost and change "
-                     f"({', '.join(f'{i} degrees' for i in self.size.inclinations)}, {VELOCITY} m/s, 5 % solid)", panels, in_a_row)
+                     f"({', '.join(f'{i} degrees' for i in self.size.inclinations)}, 5 % solid)", panels, min(PANELS, len(panels)))
         return page
 
     def panel(self, inclination, family, rows, reference):

@@ -3,11 +3,12 @@
 """Runs of cases/tomren-section: the annulus of Tomren, Iyoho and Azar (1986), periodic along the hole."""
 import csv
 import math
+import re
 import shutil
 
 from . import programs, runs, timing
 from .levels import dividing_step, shape_key
-from .programs import CASES, digest_of, run
+from .programs import CASES, Failure, digest_of, run
 
 CASE = CASES / "tomren-section"
 AREA = math.pi * (0.0635**2 - 0.02413**2)  # of the annulus across the hole [m2]
@@ -21,6 +22,16 @@ SEEDS = (49979687, 67867967, 86028121, 15485867, 32452867, 49979693, 67867979, 8
 # Name of a quantity in annulusReport's summary.csv, with what turns it into SI units.
 QUANTITIES = {"flux": ("solid flux", 1e-6), "gradient": ("pressure gradient", 1.0), "height": ("height of the solid's centre", 1e-3),
               "concentration": ("solid concentration", 1e-2), "bed": ("bed height (profile)", 1e-3)}
+
+# Arguments of fix fluid/force: forces of the sphere of equal volume, and of the real shape.
+FORCES = {"sphere": "drag chien pressure_gradient on drag_torque dennis",
+          "oriented": "drag chien pressure_gradient on drag_torque dennis oriented on strain_torque jeffery pitching_torque dabade"}
+FORMS = ("additive", "cross")  # of yield_form
+
+
+def effects_of(forces, form=FORMS[0]):
+    """The arguments of fix fluid/force; the additive form is its default."""
+    return FORCES[forces] + (f" yield_form {form}" if form != FORMS[0] else "")
 
 
 def bodies_at(concentration, length):
@@ -79,14 +90,32 @@ def case_digest(case=CASE):
     return digest_of(programs.RUN_CASE, *files)
 
 
-def section_job(build, name, words, share=0.5, spheres=1, keep=None):
+def with_tolerances(folder, tolerances):
+    """A copy of the case whose last correction of a step solves pressure and velocity to these relTol."""
+    copy = folder / "source"
+    shutil.rmtree(copy, ignore_errors=True)
+    shutil.copytree(CASE, copy)
+    file = copy / "system" / "fvSolution"
+    text = file.read_text()
+    for field, tolerance in zip(("p", "U"), tolerances):
+        text, found = re.subn(rf"({field}Final +{{ \${field}; relTol )[^;]+;", rf"\g<1>{tolerance};", text)
+        if found != 1:
+            raise Failure(f"{file} has no entry {field}Final with one relTol: expected that of {CASE.name}")
+    file.write_text(text)
+    return copy
+
+
+def section_job(build, name, words, share=0.5, spheres=1, keep=None, tolerances=None):
     """A run with options of the case's `run` (without --); the result: means over the last `share` of it with their standard
-    errors in time, the end of the run, time and its parts. `keep`: name under which the case stays in the job's folder."""
+    errors in time, the end of the run, time and its parts. `keep`: name under which the case stays in the job's folder;
+    `tolerances`: relTol of pressure and velocity in place of the case's."""
     described = {key: shape_key(value) if key == "shape" else str(value) for key, value in words.items()}
-    inputs = {"what": "section", "case": case_digest(), **described, "share": share, **({"keep": keep} if keep else {})}
+    inputs = {"what": "section", "case": case_digest(), **described, "share": share, **({"keep": keep} if keep else {}),
+              **({"tolerances": tolerances} if tolerances else {})}
 
     def work(folder):
-        case, cpu, wall = run_case(build, folder, words, keep or "case")
+        source = with_tolerances(folder, tolerances) if tolerances else CASE
+        case, cpu, wall = run_case(build, folder, words, keep or "case", source)
         run([build / "bin" / "annulusReport", case, "-o", folder, "--share", share, "--no-pictures"], folder, folder / "report.txt")
         last = rows_of(case)[-1]
         parts = timing.parts_of((case / "log.liggghts").read_text(errors="replace"))

@@ -10,9 +10,6 @@ import statistics
 from .. import charts, options, runs, section, tables, vtp
 from ..programs import run
 
-FORCES = {"sphere": "drag chien pressure_gradient on drag_torque dennis",
-          "oriented": "drag chien pressure_gradient on drag_torque dennis oriented on strain_torque jeffery pitching_torque dabade"}
-FORMS = ("additive", "cross")  # of yield_form
 BINS = 9  # of the angle between a body's axis and the hole
 QUANTITIES = {"flux": "solid flux [m3/s]", "gradient": "pressure gradient [Pa/m]", "height": "height of the solid's centre [m]"}
 
@@ -33,14 +30,9 @@ def attitude(case, share):
     return angles
 
 
-def effects_of(forces, form):
-    """The arguments of fix fluid/force; the additive form is its default."""
-    return FORCES[forces] + (f" yield_form {form}" if form != FORMS[0] else "")
-
-
 def job(chosen, shape, forces, form, inclination, seed):
     words = {"shape": shape, "count": chosen.count, "inclination": inclination, "seed": seed, "seconds": chosen.seconds, "interval": chosen.interval,
-             "effects": effects_of(forces, form), **({"tau0": f"{chosen.tau0:g}"} if chosen.tau0 else {})}
+             "effects": section.effects_of(forces, form), **({"tau0": f"{chosen.tau0:g}"} if chosen.tau0 else {})}
 
     def work(folder):
         case, cpu, _ = section.run_case(chosen.build, folder, words)
@@ -66,10 +58,10 @@ def main():
                             "with standard errors.", "one shape, one seed, 0.2 s")
     parser.add_argument("--shapes", action=options.Words, metavar="S", help="as disk:48 (default: disk:48 cube:64)")
     parser.add_argument("--inclinations", action=options.Words, metavar="DEG", help="from the vertical (default: 0 40 80)")
-    parser.add_argument("--forces", action=options.Words, choices=tuple(FORCES), metavar="F",
-                        help="of the sphere of equal volume, of the real shape (default: " + " ".join(FORCES) + ")")
+    parser.add_argument("--forces", action=options.Words, choices=tuple(section.FORCES), metavar="F",
+                        help="of the sphere of equal volume, of the real shape (default: " + " ".join(section.FORCES) + ")")
     parser.add_argument("--tau0", type=float, default=0.0, metavar="PA", help="yield stress of the mud (default 0, as the paper)")
-    parser.add_argument("--yield-forms", action=options.Words, choices=FORMS, metavar="FORM",
+    parser.add_argument("--yield-forms", action=options.Words, choices=section.FORMS, metavar="FORM",
                         help="yield_form of fix fluid/force: additive (default), cross; needs --tau0")
     parser.add_argument("--seeds", type=options.at_least_one, metavar="N", help="starts of each (default 3)")
     parser.add_argument("--count", type=options.at_least_one, default=600, metavar="N", help="bodies (default 600)")
@@ -80,10 +72,10 @@ def main():
             chosen.inclinations = [float(word) for word in chosen.inclinations or (["80"] if chosen.quick else ["0", "40", "80"])]
         except ValueError as error:
             parser.error(f"--inclinations: {error}")
-        chosen.forces, chosen.yield_forms = chosen.forces or list(FORCES), chosen.yield_forms or [FORMS[0]]
+        chosen.forces, chosen.yield_forms = chosen.forces or list(section.FORCES), chosen.yield_forms or [section.FORMS[0]]
         if not 0 <= chosen.tau0 < math.inf:
             parser.error(f"--tau0: {chosen.tau0:g} is not a number from 0 on")
-        if chosen.tau0 == 0 and chosen.yield_forms != [FORMS[0]]:
+        if chosen.tau0 == 0 and chosen.yield_forms != [section.FORMS[0]]:
             parser.error("--yield-forms: without a yield stress the forms are the same; give --tau0")
         chosen.seeds = chosen.seeds or (1 if chosen.quick else 3)
         if chosen.seeds > len(section.SEEDS):
