@@ -58,6 +58,17 @@ def fit(points, with_rest=False):
     return Fit(power, errors[1], factor, rest, errors[2] if with_rest else 0.0, misfit)
 
 
+def power_told(points, plain):
+    """Whether a power can be told: of points some of which differ from zero, by a fit that knows its power."""
+    return (plain is not None and any(abs(d) >= SURE * e for _, d, e in points) and not math.isnan(plain.power_error)
+            and plain.power_error <= plain.power / SURE and plain.power <= 0.99 * STEEPEST)
+
+
+def rest_told(with_rest):
+    """Whether the rest is known to less than the reference itself."""
+    return with_rest is not None and with_rest.rest_error <= 1
+
+
 def words_of(points):
     """One or two sentences on a ladder of points (N, deviation, standard error); empty where there is too little to say anything."""
     plain, with_rest = fit(points), fit(points, True)
@@ -67,7 +78,7 @@ def words_of(points):
     text = f"Of {len(points)} clusters the finest, N = {finest[0]}, deviates by {100 * finest[1]:+.0f} +- {100 * finest[2]:.0f} %."
     if all(abs(d) < SURE * e for _, d, e in points):
         return text + " None differs from zero by two standard errors, so that no power can be told."
-    if math.isnan(plain.power_error) or plain.power_error > plain.power / SURE or plain.power > 0.99 * STEEPEST:
+    if not power_told(points, plain):
         text += " The deviation does not fall as a power of N that these errors can tell from zero."
     else:
         text += f" If the deviation goes to zero, it falls as N^-p with p = {plain.power:.2f} +- {plain.power_error:.2f}."

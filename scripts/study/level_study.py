@@ -5,7 +5,7 @@ import dataclasses
 import math
 import statistics
 
-from . import charts, convergence, dry, forecast, levels, measures, power, runs, section, tables, timing, truth_chart
+from . import charts, choice, convergence, dry, forecast, levels, measures, power, runs, section, tables, timing, truth_chart
 
 PERCENT = 5.0  # the accuracy that the plain words ask for
 # What a point of the annulus is judged by: solids move at 0 and 40 degrees and form a bed at rest at 80.
@@ -39,6 +39,8 @@ class Size:
     points: tuple
     section_levels: tuple
     methods: object
+    hopper_levels: tuple = ()  # those of dry_levels that run in the scene with most bodies, too; empty: all
+    levels_beside: tuple = ()  # names as above, at other velocities than CENTRAL_VELOCITY; empty: section_levels
 
 
 def short(name):
@@ -180,19 +182,23 @@ class Study:
         self.groups, self.failures = [], []
 
     def wanted(self, body):
-        """Levels of a body in dry scenes, and those in the annulus; the reference last in both."""
+        """Levels of a body in heap and drum, in the hopper, in the annulus, and there at other velocities than the central one; the reference last in
+        each."""
         estimates = levels.eccentricities(self.build, body)
         everything = levels.ladder_of(body, estimates, levels.fine_disks(self.output), self.rounding)
         reference = everything[-1]
         named = {f"S1 mu {mu:.2f}": name for name, mu in estimates.items()} | {"S1 eccentric": "eccentric"}
         of = lambda wanted: [one for one in everything if not wanted or one is reference or named.get(one.name, one.name) in wanted]
         chosen = [one for one in everything if one.name in self.names or one is reference] if self.names else of(self.size.dry_levels)
-        return chosen, [one for one in of(self.size.section_levels) if not self.names or one.name in self.names or one is reference]
+        wet, beside = ([one for one in of(names) if not self.names or one.name in self.names or one is reference]
+                       for names in (self.size.section_levels, self.size.levels_beside or self.size.section_levels))
+        hopper = chosen if self.names else [one for one in chosen if one in of(self.size.hopper_levels)]
+        return {"hopper": hopper}, chosen, wet, beside
 
     def run(self):
         """Runs what is not there yet; returns what failed, as sentences."""
         plan = {body: self.wanted(body) for body in self.bodies}
-        step_jobs = {(level.name, e): levels.step_job(self.build, level, e) for both in plan.values() for one in both for level in one
+        step_jobs = {(level.name, e): levels.step_job(self.build, level, e) for _, *lists in plan.values() for one in lists for level in one
                      for e in (RESTITUTION_DRY, RESTITUTION_SECTION)}
         found = self.store.run_all("time steps", step_jobs.values())
         self.critical = {key: found[job.key()] for key, job in step_jobs.items()}
@@ -202,12 +208,13 @@ class Study:
         self.critical = {key: result if runs.good(result) else UNKNOWN_STEP for key, result in self.critical.items()}
         jobs, results = {}, {}
         for scene in (scene for scene in dry.SCENES if scene in self.scenes):
-            for body, (dry_levels, _) in plan.items():
-                self.run_scene(body, scene, self.with_step(dry_levels, RESTITUTION_DRY), jobs, results)
+            for body, (own, dry_levels, *_) in plan.items():
+                self.run_scene(body, scene, self.with_step(own.get(scene, dry_levels), RESTITUTION_DRY), jobs, results)
         for point in self.size.points if "section" in self.scenes else ():
-            for body, (_, wet_levels) in plan.items():
-                for level in self.with_step(wet_levels, RESTITUTION_SECTION):
-                    for seed in section.SEEDS[: self.seeds if point[1] == CENTRAL_VELOCITY else min(self.seeds, self.size.seeds_beside)]:
+            central = point[1] == CENTRAL_VELOCITY
+            for body, (*_, wet_levels, beside) in plan.items():
+                for level in self.with_step(wet_levels if central else beside, RESTITUTION_SECTION):
+                    for seed in section.SEEDS[: self.seeds if central else min(self.seeds, self.size.seeds_beside)]:
                         jobs[body, point, level.name, seed] = self.wet(body, point, level, seed)
             results |= self.store.run_all(f"annulus {point[0]} degrees, {point[1]} m/s",
                                           [job for (_, at, _, _), job in jobs.items() if at == point])
@@ -218,16 +225,17 @@ class Study:
             first.setdefault((body, place, name), again)
         times = self.store.run_all("times", first.values()) if self.retime else {job.key(): self.store.result_of(job) for job in first.values()}
         self.again = {key: times[job.key()] for key, job in first.items() if times[job.key()] and runs.good(times[job.key()])}
-        for body, (dry_levels, wet_levels) in plan.items():
+        for body, (own, dry_levels, wet_levels, beside) in plan.items():
             for scene, (what, unit, *_) in dry.SCENES.items():
                 if scene in self.scenes:
-                    self.group(scene, body, what, unit, dry_levels, of, scene, lambda r: r["value"], RESTITUTION_DRY, True)
+                    self.group(scene, body, what, unit, own.get(scene, dry_levels), of, scene, lambda r: r["value"], RESTITUTION_DRY, True)
             for point in self.size.points if "section" in self.scenes else ():
                 for quantity, (what, unit, scale) in SECTION_RESULTS.items():
                     if quantity == "height" and point[0] == 0:  # a vertical hole has no low side
                         continue
                     title = f"annulus {point[0]} deg, {point[1]} m/s: {what}"
-                    self.group(f"section {point[0]} {point[1]} {quantity}", body, title, unit, wet_levels, of, point,
+                    at = wet_levels if point[1] == CENTRAL_VELOCITY else beside
+                    self.group(f"section {point[0]} {point[1]} {quantity}", body, title, unit, at, of, point,
                                lambda r, q=quantity, s=scale: r["mean"][q][0] * s, RESTITUTION_SECTION, JUDGED_BY[point[0]] == quantity,
                                lambda r, q=quantity, s=scale: r["mean"][q][1] * s)
         return self.failures
@@ -308,8 +316,8 @@ class Study:
             if group.judged:
                 lines += [f"{group.title} [{group.unit}], {group.body}: {min((row.runs for row in group.rows if row.runs), default=0)} seed(s) or more", "",
                           tables.text(header, table), words, ""]
-                if group.candidates() or any(row.failed for row in group.rows):
-                    page += [f"- {words[0].upper()}{words[1:]}\n"]
+                if failed := [row for row in group.rows if row.failed]:
+                    page += [f"- {group.title} ({group.body}): {', '.join(f'{row.level.name} failed: {row.failed}' for row in failed)}\n"]
             cells += csv_cells(group)
         steps = []
         for (name, restitution), result in sorted(self.critical.items(), key=lambda item: item[0][1]):
@@ -344,10 +352,12 @@ class Study:
                     first += [f"![levels of the {body}{more}]({name}.svg)\n"]
             if len(central) > 1:
                 first.append(self.overall_words(body, central))
+            first += choice.page_of(shown)
         page[1:1] = first
         page += self.summary()
         for body in self.bodies:
-            page += forecast.page_of(self.build, [group for group in self.groups if group.body == body and group.judged], self.output, f"forecast-{body}")
+            page += forecast.page_of(self.build, [group for group in self.groups if group.body == body and group.judged and group.central],
+                                     self.output, f"forecast-{body}")
         page += self.times()
         page += ["Time steps: the largest that divides a frame (dry) or a fluid step (annulus) and is at most "
                  f"{levels.SAFETY} of the smallest critical step that `fix timestep/limit` met while bodies fell and came to rest:\n",

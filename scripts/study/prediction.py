@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The size of the error of a level in a scene that was not run, from its geometry and its errors in other scenes; pure formulas.
+"""The size of the error of a level in a scene where it was not run, from its geometry, its errors in other scenes, and two runs with spheres; pure
+formulas.
 
-The model is |error| = a m + b g. m is the mean size of the error of the level in the other scenes; g is the part of the eccentricity of
-the true body that the level lacks. a and b follow from the other scenes alone, each predicted in turn from the rest; what this misses
-there is the standard error of the prediction."""
+The model is |error| = S (a m + b g). S says how much the scene asks for shape: the difference of the results of the sphere without and with
+mu_shape over their mean. m is the mean of |error|/S of the level in the other scenes; g is the part of the eccentricity of the true body that the
+level lacks. a and b follow from the other scenes alone, each predicted in turn from the rest; what this misses there, in units of S, is the
+standard error of the prediction."""
 import dataclasses
 import math
 import statistics
@@ -33,6 +35,12 @@ def defect(eccentricity, true_eccentricity):
     return abs(1 - eccentricity / true_eccentricity)
 
 
+def sensitivity(sphere, friction):
+    """S of a scene from the results of the sphere without and with mu_shape: 0 to 2 where both have one sign; 0 where neither is anything."""
+    mean = (abs(sphere) + abs(friction)) / 2
+    return abs(sphere - friction) / mean if mean else 0.0
+
+
 def _features(level, scene, sizes, defects):
     return statistics.fmean(of[level] for name, of in sizes.items() if name != scene and level in of), defects[level]
 
@@ -49,8 +57,8 @@ def _weights(columns, values):
 
 
 def learn(sizes, defects):
-    """(a, b, standard error of a prediction) from scenes {scene: {level: size of the error}}; None with fewer than two scenes that share
-    levels, or with too few of them. Each scene is predicted from the others."""
+    """(a, b, standard error of a prediction) from scenes {scene: {level: size of the error over S}}; None with fewer than two scenes that
+    share levels, or with too few of them. Each scene is predicted from the others."""
     rows = [(*_features(level, scene, sizes, defects), size) for scene, of in sizes.items() for level, size in of.items()
             if level in defects and any(level in other for name, other in sizes.items() if name != scene)]
     if len(rows) < 3:
@@ -60,32 +68,40 @@ def learn(sizes, defects):
     return a, b, math.sqrt(sum((a * m + b * g - y) ** 2 for m, g, y in rows) / (len(rows) - 2))
 
 
-def leave_one_out(sizes, noises, defects):
-    """Forecasts of every level in every scene, each from the other scenes alone. sizes, noises: {scene: {level: ...}}; defects: {level:
-    defect}. Empty with fewer than MIN_SCENES scenes."""
-    if len(sizes) < MIN_SCENES:
+def _over(sizes, sensitivities):
+    """Sizes of errors in units of S, of the scenes that react at all."""
+    return {scene: {level: size / sensitivities[scene] for level, size in of.items()} for scene, of in sizes.items() if sensitivities[scene] > 0}
+
+
+def leave_one_out(sizes, noises, defects, sensitivities):
+    """Forecasts of every level in every scene, each from the other scenes and S of its own. sizes, noises: {scene: {level: ...}}; defects:
+    {level: defect}; sensitivities: {scene: S}. Empty with fewer than MIN_SCENES scenes whose S is above 0."""
+    shares = _over(sizes, sensitivities)
+    if len(shares) < MIN_SCENES:
         return []
     made = []
-    for scene, of in sizes.items():
-        others = {name: found for name, found in sizes.items() if name != scene}
+    for scene in shares:
+        others = {name: found for name, found in shares.items() if name != scene}
         learned = learn(others, defects)
         if learned is None:
             continue
         a, b, error = learned
-        for level, measured in of.items():
+        scale = sensitivities[scene]
+        for level, measured in sizes[scene].items():
             known = [found[level] for found in others.values() if level in found]
             if known and level in defects:
-                made.append(Forecast(level, scene, a * statistics.fmean(known) + b * defects[level], error, measured, noises[scene][level]))
+                made.append(Forecast(level, scene, scale * (a * statistics.fmean(known) + b * defects[level]), scale * error, measured, noises[scene][level]))
     return made
 
 
-def elsewhere(sizes, defects):
-    """{level: (size of the error in a scene that was not run, its standard error)}, from all scenes that were."""
-    learned = learn(sizes, defects) if len(sizes) >= MIN_SCENES else None
+def elsewhere(sizes, defects, sensitivities):
+    """{level: (size of the error over S in a scene that was not run, its standard error)}, from all scenes that were."""
+    shares = _over(sizes, sensitivities)
+    learned = learn(shares, defects) if len(shares) >= MIN_SCENES else None
     if learned is None:
         return {}
     a, b, error = learned
-    known = {level: [of[level] for of in sizes.values() if level in of] for level in defects}
+    known = {level: [of[level] for of in shares.values() if level in of] for level in defects}
     return {level: (a * statistics.fmean(found) + b * defects[level], error) for level, found in known.items() if found}
 
 
@@ -94,6 +110,7 @@ def words_of(forecasts):
     miss = math.sqrt(statistics.fmean((f.predicted - f.measured) ** 2 for f in forecasts))
     spread = statistics.pstdev([f.measured for f in forecasts])
     within = sum(f.holds() for f in forecasts)
-    text = (f"Predicted from the other scenes, the size of the error is off by {100 * miss:.0f} points in the root mean square; {within} of "
-            f"{len(forecasts)} lie within two standard errors. The mean of all sizes would be off by {100 * spread:.0f} points")
+    far = sorted(abs(f.predicted - f.measured) for f in forecasts)
+    text = (f"Predicted from the other scenes, half of the sizes are off by less than {100 * statistics.median(far):.0f} points, and the root mean square "
+            f"is {100 * miss:.0f} points; {within} of {len(forecasts)} lie within two standard errors. The mean of all sizes would be off by {100 * spread:.0f} points")
     return text + (", so that the prediction is of no use here." if miss >= spread else ".")

@@ -18,7 +18,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("ECCENTRA_BUILD", ROOT / "build"))
 sys.path.insert(0, str(ROOT / "scripts"))
-from study import (annulus_scene, charts, cohesion, convergence, frames, grain_shapes, ladders, level_study, levels, loop_data, measures,  # noqa: E402
+from study import (annulus_scene, charts, choice, cohesion, convergence, figures, frames, grain_shapes, ladders, level_study, levels, loop_data, measures,  # noqa: E402
                    patch_walls, power, programs, runs, scene_bed, scene_grains, section, shape_levels, tables, timing, truth_chart, user_scene,
                    user_study, wedge)
 from study.commands import creeping_drag  # noqa: E402
@@ -353,6 +353,15 @@ class Levels(unittest.TestCase):
         words = group.plain_words()
         self.assertIn("Within 5 % of it, the cheapest is C27 (+2.0 +-", words)
         self.assertIn("it is 4.0 times as fast", words)
+
+    def test_a_row_says_which_level_to_take(self):
+        row = lambda name, kind, value, cpu: level_study.Row(levels.Level(name, kind), value, 0.01, 3, cpu, cpu, {}, 1e-5, {})
+        group = level_study.Group("scene", "cube", "slope", "degrees", [row("S1", "sphere", 5.0, 0.5), row("C8", "cluster", 12.0, 1.0),
+                                                                        row("C27", "cluster", 10.2, 2.0), row("smooth 0.15", "smooth", 10.0, 8.0)], True)
+        group.compare()
+        table = choice.page_of([group])[1].splitlines()
+        self.assertEqual(table[2].split(" | ")[1:8], ["10.0 +- 0.010 degrees", "8.00", "C27", "+2.0 +- 0.1", "4.0", "-50", "0.062"])
+        self.assertEqual(choice.page_of([level_study.Group("scene", "cube", "slope", "degrees", group.rows[-1:], True)]), [])
 
     def test_a_body_with_other_corners_is_no_model(self):
         row = lambda name, kind, value, cpu: level_study.Row(levels.Level(name, kind), value, 0.01, 3, cpu, cpu, {}, 1e-5, {})

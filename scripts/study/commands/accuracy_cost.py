@@ -10,16 +10,18 @@ ALL_POINTS = tuple((inclination, velocity) for inclination in (0, 40, 80) for ve
 # Of dry scenes with --quick, and of the standard size; --levels names any, --full has all.
 FEW = ("S1", "mean", "eccentric", "C8", "C27", "C64", "C216", "D7", "D48", "D224", "smooth 0.3", "smooth 1")
 MORE = ("S1", "25 %", "mean", "eccentric", "C8", "C27", "C64", "C216", "C512", "D7", "D19", "D48", "D80", "D224", "smooth 0.3", "smooth 0.6", "smooth 1")
+HOPPER = ("S1", "25 %", "mean", "eccentric", "C8", "C27", "C64", "C216", "D7", "D19", "D48", "D80")
 SIZES = {
     "quick": level_study.Size(
         bodies=("cube",), few_bodies=True, seeds=3, most_seeds=3, dry_levels=FEW,
-        seeds_beside=3, length=0.15, cells="8 32 10", seconds={0: 1.0, 40: 2.0, 80: 2.5},
+        hopper_levels=HOPPER, seeds_beside=3, length=0.15, cells="8 32 10", seconds={0: 1.0, 40: 2.0, 80: 2.5},
         points=((0, 0.58), (80, 0.58)), section_levels=("S1", "mean", "eccentric", "C8", "C64", "C216"),
-        methods=method_study.Size(inclinations=(80,), seeds=1, seconds=1.0, finest=False)),
+        methods=method_study.Size(inclinations=(80,), seeds=1, seconds=1.0, finest=False, clusters=False)),
     "standard": level_study.Size(
         bodies=("cube", "disk"), few_bodies=True, seeds=3, most_seeds=10, dry_levels=MORE,
         seeds_beside=1, length=0.15, cells="8 32 10", seconds={0: 1.0, 40: 2.0, 80: 2.5},
         points=ALL_POINTS, section_levels=("S1", "mean", "eccentric", "C8", "C64", "C216", "D7", "D48", "D80"),
+        hopper_levels=HOPPER, levels_beside=("S1", "mean", "C64", "D48"),
         methods=method_study.Size(inclinations=(0, 80), seeds=1, seconds=2.0, finest=False)),
     "full": level_study.Size(
         bodies=("cube", "disk"), few_bodies=False, seeds=10, most_seeds=20, dry_levels=(),
