@@ -873,6 +873,17 @@ class Page(unittest.TestCase):
             self.assertIn("from accuracy-cost\n![c](results-levels-cube.svg)", page)
             self.assertIn("Not run yet: `scripts/paper --quick`", page)
             self.assertTrue((root / "docs" / "results-levels-cube.svg").is_file())
+            # What another study wrote before stays when its results are gone, however often the page is made.
+            (root / "paper").mkdir()
+            (root / "paper" / "results.md").write_text("## Figures\n\nfrom paper\n")
+            self.assertEqual(subprocess.run(script, capture_output=True).returncode, 0)
+            (root / "paper" / "results.md").unlink()
+            both = (root / "docs" / "results.md").read_text()
+            for text in ("from a later call", "from the last call"):
+                (root / "accuracy-cost" / "results.md").write_text(f"{text}\n")
+                self.assertEqual(subprocess.run(script, capture_output=True).returncode, 0)
+                later = (root / "docs" / "results.md").read_text()
+                self.assertEqual(later, both.replace("from accuracy-cost\n![c](results-levels-cube.svg)", text))
 
 
 if __name__ == "__main__":
