@@ -7,6 +7,7 @@ import math
 from . import charts, ladders, levels, tables
 from .ladders import Point, larger, top_of_both
 
+SAME_FILLING = 0.004  # fillings that are compared differ by less [of the volume]
 SPHERICITY = {"cube": 0.85, "disk": 0.79}  # Table 1
 
 
@@ -47,12 +48,12 @@ def count(told, wanted, what):
 
 def flux_trend(told_of, what):
     """At each filling that both have: how often the flux of b is smaller than that of a, for (a, b) in pairs of values."""
-    parts = []
-    for k in range(max((len(v.rungs) for pair in told_of for v in pair), default=0)):
-        both = [(a.rungs[k], b.rungs[k]) for a, b in told_of if min(len(a.rungs), len(b.rungs)) > k]
-        signs = [ladders.told_apart(b[1], a[1], b[2], a[2]) for a, b in both]
-        if both:
-            parts.append(f"at {100 * both[0][0][0]:.0f} % it falls in {signs.count(-1)}, rises in {signs.count(1)} of {len(signs)}")
+    signs = {}  # {filling [%]: one sign for each pair}
+    for a, b in told_of:
+        for (filled, flux_a, error_a) in a.rungs:
+            for _, flux_b, error_b in (rung for rung in b.rungs if abs(rung[0] - filled) < SAME_FILLING):
+                signs.setdefault(round(100 * filled), []).append(ladders.told_apart(flux_b, flux_a, error_b, error_a))
+    parts = [f"at {at} % it falls in {of.count(-1)}, rises in {of.count(1)} of {len(of)}" for at, of in sorted(signs.items())]
     return f"Flux carried at a filling, {what}: {'; '.join(parts)} comparisons." if parts else ""
 
 
@@ -63,6 +64,7 @@ class Figures:
         self.mu = {body: [self.of[body][f"S1 mu {estimates[body][n]:.2f}"] for n in plan.estimates] for body in ("cube", "disk")}
         self.s1, self.s6 = self.of["cube"]["S1"], self.of["cube"]["S6"]
         self.reference = {"cube": self.of["cube"]["C64"], "disk": self.of["disk"]["D48"]}
+        self.true = {body: levels.smooth(body, levels.ROUNDING[body]) for body in ("cube", "disk")}
 
     def sphere(self, body, level, inclination, velocity, rpm=50):
         """A sphere whose rolling friction stands for a shape has the drag of that shape."""
@@ -80,11 +82,13 @@ class Figures:
             return {f"{level.name}, {u} m/s": [(i, Point(level, i, u)) for i in plan.inclinations]
                     for level in (self.s1, self.s6) for u in plan.velocities}
         if number == 10:
-            shapes = {"disk D48": self.reference["disk"], "cube C64": self.reference["cube"], "sphere S1": self.s1}
+            shapes = {"disk D48": self.reference["disk"], "cube C64": self.reference["cube"], "sphere S1": self.s1,
+                      "true disk": self.true["disk"], "true cube": self.true["cube"]}
             return {name: [(u, Point(level, 80, u)) for u in plan.shape_velocities] for name, level in shapes.items()}
         if number == 11:
             names = (("cube", "C8"), ("cube", "C27"), ("cube", "C64"), ("disk", "D7"), ("disk", "D19"), ("disk", "D48"))
-            return {name: [(u, Point(self.of[body][name], 80, u)) for u in plan.coarse_velocities] for body, name in names}
+            found = {name: [(u, Point(self.of[body][name], 80, u)) for u in plan.coarse_velocities] for body, name in names}
+            return found | {f"true {body}": [(u, Point(level, 80, u)) for u in plan.coarse_velocities] for body, level in self.true.items()}
         if number == 12:
             found = {}
             for body, cluster in (("cube", "C64"), ("disk", "D48")):
@@ -92,6 +96,7 @@ class Figures:
                     found[f"{body}, {u} m/s"] = [(0.0, self.sphere(body, self.s1, 80, u))] + [
                         (level.mu, self.sphere(body, level, 80, u)) for level in self.mu[body]]
                     found[f"{cluster}, {u} m/s"] = [(math.nan, Point(self.reference[body], 80, u))]
+                    found[f"true {body}, {u} m/s"] = [(math.nan, Point(self.true[body], 80, u))]
             return found
         if not plan.friction_velocities:
             return {}
@@ -138,25 +143,27 @@ def finds(number, series, values):
         told.append(vertical(at))
     elif number == 10:
         told.append(count(pairs(keyed, lambda k: k[0], lambda k: k[1]), -1, "C falls with velocity"))
-        order = {"sphere S1": 0, "cube C64": 1, "disk D48": 2}
-        told.append(count(pairs(keyed, lambda k: k[1], lambda k: order[k[0]]), 1, "disk > cube > sphere"))
-        neighbours = [(keyed[a], keyed[b]) for _, a, b, _ in pairs(keyed, lambda k: k[1], lambda k: order[k[0]])]
-        told.append(flux_trend(neighbours, "from sphere to cube to disk"))
+        for what, names in (("clusters", ("sphere S1", "cube C64", "disk D48")), ("true bodies", ("sphere S1", "true cube", "true disk"))):
+            shown = pairs({k: v for k, v in keyed.items() if k[0] in names}, lambda k: k[1], lambda k, names=names: names.index(k[0]))
+            told.append(count(shown, 1, f"disk > cube > sphere, {what}"))
+            told.append(flux_trend([(keyed[a], keyed[b]) for _, a, b, _ in shown], f"from sphere to cube to disk, {what}"))
     elif number == 11:
-        for coarse, fine in (("C8", "C64"), ("C27", "C64"), ("D7", "D48"), ("D19", "D48")):
+        for coarse, fine in (("C8", "C64"), ("C27", "C64"), ("C64", "true cube"), ("D7", "D48"), ("D19", "D48"), ("D48", "true disk")):
             for (name, u), value in keyed.items():
                 if name == coarse:
                     told.append(f"{coarse} at {u} m/s: {against(value, keyed[fine, u])} {fine}.")
     elif number == 12:
         for name, points in series.items():
             if len(points) > 1:
-                cluster = values[series[{"cube": "C64", "disk": "D48"}[name.split(",")[0]] + "," + name.split(",")[1]][0][1]]
+                body, at = name.split(",")
+                others = {other: values[series[f"{other},{at}"][0][1]] for other in ({"cube": "C64", "disk": "D48"}[body], f"true {body}")}
                 told.append(count([(0, a[0], b[0], larger(values[b[1]], values[a[1]])) for a, b in zip(points, points[1:])], 1,
                                   f"{name}: C grows with mu_shape"))
                 told.append(flux_trend([(values[a[1]], values[b[1]]) for a, b in zip(points, points[1:])], "as mu_shape grows"))
-                compared = [f"mu {x:.2f} {against(values[p], cluster)}" for x, p in points if larger(values[p], cluster) is not None]
-                if compared:
-                    told.append("Against the cluster: " + "; ".join(compared) + ".")
+                for other, value in others.items():
+                    compared = [f"mu {x:.2f} {against(values[p], value)}" for x, p in points if larger(values[p], value) is not None]
+                    if compared:
+                        told.append(f"Against {other}: " + "; ".join(compared) + ".")
         told.append("Above mu_s = 0.5 a sphere slides instead of rolling: more rolling friction changes nothing then (saturation).")
     else:
         names = list(series)
@@ -208,7 +215,7 @@ def panel(number, series, values):
             made = [charts.Point(place, 100 * values[p].value, 100 * values[p].error, name, bound=values[p].bound)
                     for place, (name, points) in enumerate(series.items()) for x, p in points if x == u]
             shown.append(charts.Series(f"{u} m/s", made, charts.COLOURS[k]))
-        return charts.Panel(f"Figure {number}: {TITLES[number]}", "level of detail, from C8 to D48", WANTED, shown, floor=0, numbered=False)
+        return charts.Panel(f"Figure {number}: {TITLES[number]}", "level of detail, from C8 to the true disk", WANTED, shown, floor=0, numbered=False)
     for k, (name, points) in enumerate(series.items()):
         if number in (13, 14) and "turning" in name:
             continue

@@ -10,6 +10,8 @@ POURED_ABOVE = 0.05  # of the volume: what has no room at random is poured first
 POURING = 0.4  # [s]
 SHARE = 0.4  # of a run, at its end, over which means are taken: the shock of the flow's start lasts for a second
 NOT_RUN = "not run"
+NARROW = 0.02  # fillings that enclose the injected flux are close enough [of the volume]
+INSIDE = 0.25  # of their distance that a further filling keeps from both
 ROOM = 3.0  # standard errors by which two values must differ to be told apart, squared sum
 
 
@@ -21,6 +23,7 @@ class Size:
     seconds: float
     seeds: int
     turbulence: str = ""  # model of the flow; empty: laminar
+    refine: int = 0  # further fillings between the two that enclose the injected flux
 
 
 @dataclasses.dataclass(frozen=True)
@@ -70,6 +73,19 @@ def value_of(rungs, failed=""):
     if at == "above":
         return Value(rungs[-1][0], math.nan, 0 if failed else 1, rungs, slides, failed)
     return Value(at, error, 0, rungs, slides, "")
+
+
+def between(rungs):
+    """The filling to run next between the two that enclose the injected flux: where the straight line between them reaches it, but not close to either,
+    because the flux rises steeply where a bed begins to move. None where they are close, or where nothing lies below but the empty hole."""
+    above = next((k for k, (_, flux, _) in enumerate(rungs) if flux >= section.INJECTED), 0)
+    if not above:
+        return None
+    (low, below, _), (high, over, _) = rungs[above - 1], rungs[above]
+    if high - low <= NARROW:
+        return None
+    share = (section.INJECTED - below) / (over - below)
+    return low + (high - low) * min(1 - INSIDE, max(INSIDE, share))
 
 
 def top_of_both(a, b):
@@ -122,30 +138,38 @@ class Ladders:
         points = [p for p in dict.fromkeys(points) if p not in self.values]
         climbing, rungs, failed, sentences = list(points), {p: [] for p in points}, {}, []
         for rung in self.size.rungs:
-            seeds = section.SEEDS[: self.size.seeds]
-            jobs = {(p, s): self.job(p, rung, s) for p in climbing for s in seeds}
-            results = self.store.run_all(f"rung of {100 * rung:g} %", jobs.values())
-            for point in list(climbing):
-                every = [results[jobs[point, s].key()] for s in seeds]
-                good = [r for r in every if runs.good(r)]
-                if any("failed" in r for r in every):
-                    failed[point] = next(r["failed"] for r in every if "failed" in r)
-                    sentences.append(f"{point.name()}, {100 * rung:g} %: {failed[point]}")
-                if not good:
-                    failed.setdefault(point, NOT_RUN)
-                    if not self.store.plan:
-                        climbing.remove(point)
-                    continue
-                flux, error = measures.mean_and_error([r["mean"]["flux"][0] for r in good])
-                if len(good) == 1:
-                    error = good[0]["mean"]["flux"][1]
-                filled = measures.mean_and_error([r["mean"]["concentration"][0] for r in good])[0]
-                rungs[point].append((filled, flux, error))
-                if flux >= section.INJECTED:
-                    climbing.remove(point)
+            ended = self.climb({point: rung for point in climbing}, f"rung of {100 * rung:g} %", rungs, failed, sentences)
+            climbing = [point for point in climbing if (point not in ended or self.store.plan)
+                        and not (rungs[point] and rungs[point][-1][1] >= section.INJECTED)]
+        for turn in range(self.size.refine):
+            chosen = {point: rung for point in points if point not in failed and (rung := between(rungs[point]))}
+            self.climb(chosen, f"between the rungs, {turn + 1} of {self.size.refine}", rungs, failed, sentences)
         for point in points:
             self.values[point] = value_of(rungs[point], failed.get(point, ""))
         return sentences
+
+    def climb(self, at, title, rungs, failed, sentences):
+        """Runs each point at its filling, {point: filling}, and adds what came out to rungs, in order; the points without a run."""
+        seeds = section.SEEDS[: self.size.seeds]
+        jobs = {(p, s): self.job(p, rung, s) for p, rung in at.items() for s in seeds}
+        results = self.store.run_all(title, jobs.values())
+        ended = set()
+        for point, rung in at.items():
+            every = [results[jobs[point, s].key()] for s in seeds]
+            good = [r for r in every if runs.good(r)]
+            if any("failed" in r for r in every):
+                failed[point] = next(r["failed"] for r in every if "failed" in r)
+                sentences.append(f"{point.name()}, {100 * rung:.3g} %: {failed[point]}")
+            if not good:
+                failed.setdefault(point, NOT_RUN)
+                ended.add(point)
+                continue
+            flux, error = measures.mean_and_error([r["mean"]["flux"][0] for r in good])
+            if len(good) == 1:
+                error = good[0]["mean"]["flux"][1]
+            filled = measures.mean_and_error([r["mean"]["concentration"][0] for r in good])[0]
+            rungs[point] = sorted([*rungs[point], (filled, flux, error)])
+        return ended
 
     def rows(self, points):
         """For CSV: all that is known of some points."""

@@ -28,7 +28,7 @@ STUDIES = {
         "--mu-shape": ["0.1"]}, ("--others", "--mine", "--measure", "--share")),  # of runs that a plan cannot name before the fit
     "paper": (["--figures", "10", "--velocities", "1.165"], {
         "--figures": ["7"], "--velocities": ["0.58"], "--rungs": ["0.3"], "--turbulence": ["kEpsilon"], "--quick": [],
-        "--full": []}, ("--measured",)),
+        "--full": [], "--seeds": ["2"], "--length": ["0.16"]}, ("--measured", "--refine")),  # what lies between is known after the rungs
     "full-scene": (["--levels", "S1", "--fillings", "0.5"], {
         "--levels": ["S1", "C8"], "--fillings": ["0.1"], "--ranks": ["1"], "--quick": [], "--run": ["S1"], "--accuracy": [], "--angle": ["40"],
         "--velocity": ["0.72"], "--rpm": ["0"], "--end": ["30"], "--length": ["6"], "--fluid-step": ["0.01"], "--tolerances": ["tight"],

@@ -270,6 +270,45 @@ class Ladders(unittest.TestCase):
         self.assertEqual(unknown.words(), "not run")
         self.assertIsNone(ladders.larger(unknown, ladders.value_of([(0.4, 1e-6, 1e-8)])))
 
+    def test_further_fillings_find_where_a_bed_begins_to_move(self):
+        begins, steep = 0.193, 3e-3  # filling, and rise of the flux above it [m3/s]
+        flux = lambda filling: max(0.0, steep * (filling - begins))
+
+        class Made(ladders.Ladders):
+            def job(self, point, rung, seed):
+                return runs.Job("", {"rung": rung, "seed": seed}, lambda folder: {})
+
+        class Reported:
+            plan, ran = False, []
+
+            def run_all(self, _title, jobs):
+                self.ran += [job.inputs["rung"] for job in jobs]
+                return {job.key(): {"mean": {"flux": (flux(job.inputs["rung"]), 1e-9), "concentration": (job.inputs["rung"], 0)}} for job in jobs}
+
+        point = ladders.Point(levels.Level("S1", "sphere"), 80, 0.58)
+        exact = begins + section.INJECTED / steep
+        far = {}
+        for refine in (0, 4):
+            store = Reported()
+            store.ran = []
+            climbed = Made(store, None, ladders.Size(rungs=(0.02, 0.15, 0.25, 0.35), length=0.08, cells="", seconds=1, seeds=1, refine=refine), {})
+            self.assertEqual(climbed.run([point]), [])
+            found = climbed.values[point]
+            far[refine] = abs(found.value - exact)
+            self.assertEqual([filled for filled, *_ in found.rungs], sorted(store.ran))
+            self.assertLessEqual(len(store.ran), 3 + refine)
+        self.assertLess(far[4], ladders.NARROW)
+        self.assertLess(far[4], 0.4 * far[0])
+        # Where the first filling carries the flux, nothing lies below it but the empty hole.
+        self.assertIsNone(ladders.between([(0.02, 2 * section.INJECTED, 0.0)]))
+        self.assertIsNone(ladders.between([(0.02, 0.0, 0.0), (0.35, 0.5 * section.INJECTED, 0.0)]))
+
+    def test_fluxes_are_compared_at_the_same_filling(self):
+        a = ladders.value_of([(0.02, 1e-6, 1e-8), (0.15, 2e-6, 1e-8)])
+        b = ladders.value_of([(0.021, 2e-6, 1e-8), (0.09, 9e-6, 1e-8), (0.15, 1e-6, 1e-8)])
+        said = figures.flux_trend([(a, b)], "x")
+        self.assertEqual(said, "Flux carried at a filling, x: at 2 % it falls in 0, rises in 1 of 1; at 15 % it falls in 1, rises in 0 of 1 comparisons.")
+
     def test_filling(self):
         self.assertEqual(section.bodies_at(0.05, 0.3), 1213)  # 5 % of pi (0.0635^2 - 0.02413^2) 0.3 m3
 
@@ -814,6 +853,9 @@ class Scripts(unittest.TestCase):
                 ("paper", ["--jobs", "0"], "--jobs is 0: give 1 or more"),
                 ("paper", ["--rungs", "0.3", "0.1"], "--rungs is 0.3 0.1: give rising shares"),
                 ("paper", ["--figures", "8"], "invalid choice: '8'"),
+                ("paper", ["--seeds", "0"], "--seeds is 0: give 1 to 10"),
+                ("paper", ["--length", "0.01"], "--length is 0.01: give 0.04 to 2"),
+                ("paper", ["--refine", "7"], "--refine is 7: give 0 to 6"),
                 ("paper", ["--measured", "/nowhere.csv"], "--measured /nowhere.csv: "),
                 ("paper", ["--build", "/nowhere"], "there is no /nowhere/bin/eccentra-dem: build it with"),
                 ("full-scene", ["--build", "/nowhere"], "there is no /nowhere/bin/eccentra-dem: build it with"),

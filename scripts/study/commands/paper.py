@@ -12,6 +12,8 @@ TABLE_1 = {"sphere 1": 1, "sphere 6": 0.98, "cube 8": 0.91, "cube 27": 0.87, "cu
            "disk 48": 0.79}
 MU = ("5 %", "25 %", "mean", "largest")
 SPEEDS = (0.58, 0.72, 1.165)
+SHORTEST, LONGEST = 0.04, 2.0  # sections [m]
+MOST_REFINED = 6
 RUNGS = (0.02, 0.15, 0.25, 0.35)
 SIZES = {
     "quick": (ladders.Size(rungs=RUNGS, length=0.08, cells="8 32 6", seconds=1.4, seeds=1),
@@ -81,11 +83,19 @@ def main():
                         "Hole-Cleaning-Conditions (files/dataframe.csv)")
     parser.add_argument("--velocities", nargs="+", type=float, choices=SPEEDS, help="mean velocities [m/s] (default: all of the figure)")
     parser.add_argument("--turbulence", choices=("kEpsilon", "realizableKE", "kOmegaSST"), help="model of the flow (default: laminar, as the paper)")
+    parser.add_argument("--seeds", type=int, metavar="N", help=f"runs of each filling, 1 to {len(section.SEEDS)} (default 1; --full 3)")
+    parser.add_argument("--length", type=float, metavar="M", help=f"of the section [m], {SHORTEST:g} to {LONGEST:g} (default 0.08; --full 0.6)")
+    parser.add_argument("--refine", type=int, metavar="N", help=f"further fillings, 0 to {MOST_REFINED}, between the two that enclose the injected flux, until "
+                        f"they are {100 * ladders.NARROW:g} % apart (default 0)")
     parser.add_argument("--rungs", nargs="+", type=float, metavar="SHARE", help="fillings of the ladder, rising, such as 0.02 0.15 0.35")
 
     def check(words):
         if words.rungs and not (0 < words.rungs[0] and words.rungs[-1] <= 0.5 and words.rungs == sorted(set(words.rungs))):
             parser.error(f"--rungs is {' '.join(f'{r:g}' for r in words.rungs)}: give rising shares of the volume, more than 0 and at most 0.5")
+        for name, value, low, high in (("seeds", words.seeds, 1, len(section.SEEDS)), ("length", words.length, SHORTEST, LONGEST),
+                                       ("refine", words.refine, 0, MOST_REFINED)):
+            if value is not None and not low <= value <= high:
+                parser.error(f"--{name} is {value:g}: give {low:g} to {high:g}")
         try:
             words.loop = loop_data.read(words.measured) if words.measured else None
         except (OSError, ValueError) as error:
@@ -100,6 +110,10 @@ def main():
             "velocities", "shape_velocities", "coarse_velocities", "friction_velocities")})
     if words.rungs:
         size = dataclasses.replace(size, rungs=tuple(words.rungs))
+    if words.length:
+        across, around, along = size.cells.split()
+        size = dataclasses.replace(size, length=words.length, cells=f"{across} {around} {max(3, round(int(along) * words.length / size.length))}")
+    size = dataclasses.replace(size, seeds=words.seeds or size.seeds, refine=words.refine or size.refine)
     if words.turbulence:
         size = dataclasses.replace(size, turbulence=words.turbulence)
 
@@ -140,7 +154,7 @@ def main():
             page += loop_data.compare(words.loop, climbed.values, drawn)
     if words.plan:
         return 0
-    settings = (f"fillings {', '.join(f'{100 * r:g} %' for r in size.rungs)}, {size.length} m, cells {size.cells.replace(' ', 'x')}, "
+    settings = (f"fillings {', '.join(f'{100 * r:g} %' for r in size.rungs)}{f' and {size.refine} between' if size.refine else ''}, {size.length} m, cells {size.cells.replace(' ', 'x')}, "
                 f"{size.seconds} s, {size.turbulence or 'laminar'}, means over the last {100 * ladders.SHARE:.0f} % of it, {size.seeds} seed(s)")
     return tables.finish(words, page, failed, settings)
 
