@@ -110,6 +110,17 @@ bool OptionReader::on_off() {
   return *read;
 }
 
+double OptionReader::factor() {
+  if (at_number())
+    return at_least(0, "or on or off");
+  const std::string& text = value("on, off or a factor");
+  const std::optional<bool> read = switch_value(text);
+  if (!read)
+    refuse("keyword '{}': '{}' is neither on nor off nor a number; expected on, off or a factor of at least 0",
+           keyword_, text);
+  return *read ? 1 : 0;
+}
+
 const std::string& OptionReader::choice(std::initializer_list<const char*> names) {
   std::string expected;
   for (const char* name : names)

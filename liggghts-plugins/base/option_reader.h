@@ -55,6 +55,8 @@ class OptionReader {
   int count(int low, const std::string& unit = "");
   /// A value that switch_value() knows.
   bool on_off();
+  /// A factor of at least 0, or a value that switch_value() knows: on is 1, off is 0.
+  double factor();
   /// One of `names`.
   const std::string& choice(std::initializer_list<const char*> names);
 

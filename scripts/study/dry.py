@@ -71,7 +71,8 @@ def dry_job(build, scene, level, seed, bodies, step):
     if level.slide is not None:
         variables["mu_s"] = level.slide
     if level.kind == "eccentric":
-        variables |= {"rolling": "eccentric", "words": f"shape {level.shape}"}
+        damped = f"rockingDamping {level.damping:g}"
+        variables |= {"rolling": "eccentric", "words": f"shape {level.shape} {damped}", "wall_words": f"{variables['wall_words']} {damped}"}
     inputs = {"what": "dry", "scene": digest_of(SCENE / f"in.{scene}", SCENE / "bodies.in"),
               **variables, "shape": shape_key(level.shape), "ring": ring}
 

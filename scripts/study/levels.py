@@ -31,13 +31,14 @@ SMOOTH_COST = 30  # spheres of the cluster that costs as much, for the time left
 class Level:
     """kind: sphere, friction (sphere with mu_shape), eccentric (sphere that cogs), cluster, smooth (true faces)
     or rounding (true faces and other corners: another body); shape: words of a shape;
-    mu: mu_shape; slide: coefficient of sliding friction, None for that of the scene."""
+    mu: mu_shape; slide: coefficient of sliding friction, None for that of the scene; damping: rockingDamping of an eccentric sphere."""
     name: str
     kind: str
     shape: str = "sphere 1"
     mu: float = 0.0
     spheres: int = 1
     slide: float = None
+    damping: float = 1.0
 
     def has_shape(self):
         """Whether the particle itself has the shape, and is no sphere that stands for it."""

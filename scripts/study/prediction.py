@@ -112,5 +112,6 @@ def words_of(forecasts):
     within = sum(f.holds() for f in forecasts)
     far = sorted(abs(f.predicted - f.measured) for f in forecasts)
     text = (f"Predicted from the other scenes, half of the sizes are off by less than {100 * statistics.median(far):.0f} points, and the root mean square "
-            f"is {100 * miss:.0f} points; {within} of {len(forecasts)} lie within two standard errors. The mean of all sizes would be off by {100 * spread:.0f} points")
+            f"is {100 * miss:.0f} points; {within} of {len(forecasts)} lie within two standard errors. The mean of all sizes would be off by "
+            f"{100 * spread:.0f} points")
     return text + (", so that the prediction is of no use here." if miss >= spread else ".")

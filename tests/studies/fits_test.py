@@ -206,12 +206,23 @@ class CalibrateRolling(unittest.TestCase):
             self.assertTrue((pathlib.Path(folder) / "calibration.svg").is_file())
             self.assertNotIn(" s of CPU |", self.run_script(*words).stderr)  # nothing is repeated
 
+    def test_damping_of_an_eccentric_sphere(self):
+        with tempfile.TemporaryDirectory() as folder:
+            words = ("--shape", "cube", "--rounding", "0.3", "--scene", "drum", "--others", "drum", "--seeds", "2", "--jobs", "2", "--out", folder,
+                     "--vary", "rockingDamping", "--range", "0", "10")
+            said = self.run_script(*words)
+            self.assertEqual(said.returncode, 0, said.stderr + said.stdout)
+            with open(pathlib.Path(folder) / "points.csv", newline="") as rows:
+                angle = {float(row["rockingDamping"]): float(row["mean"]) for row in csv.DictReader(rows)}
+            self.assertGreater(angle[10] - angle[0], 2)  # degrees: without damping its spheres rock on, and the bed lies flatter
+
     def test_bad_words(self):
         for words, says in ((["--seeds", "1"], "--seeds is 1: give 2 to 20"), (["--scene", "mine"], "--scene mine needs --mine FILE"),
                             (["--scene", "ocean"], "invalid choice: 'ocean'"), (["--range", "0.5", "0.1"], "--range is 0.5 0.1: give two rising numbers"),
                             (["--mu-shape", "0.1"], "--mu-shape is 0.1: give a number from 0 on, with --vary mu_s alone"),
                             (["--mine", self.SCRIPT], "--mine FILE and --measure COLUMN belong together"),
                             (["--vary", "mu_s", "--mine", self.SCRIPT, "--measure", "v_height"], "no line 'variable mu_s index ...'"),
+                            (["--vary", "rockingDamping", "--mine", self.SCRIPT, "--measure", "v_height"], "--vary rockingDamping is there for our scenes"),
                             (["--shape", "cube 9"], "clusterShape failed: ")):
             with self.subTest(" ".join(map(str, words))), tempfile.TemporaryDirectory() as folder:
                 said = self.run_script("--out", pathlib.Path(folder) / "results", *words)

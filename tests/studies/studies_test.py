@@ -18,9 +18,9 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("ECCENTRA_BUILD", ROOT / "build"))
 sys.path.insert(0, str(ROOT / "scripts"))
-from study import (annulus_scene, charts, choice, cohesion, convergence, figures, frames, grain_shapes, ladders, level_study, levels, loop_data, measures,  # noqa: E402
-                   patch_walls, power, programs, runs, scene_bed, scene_grains, section, shape_levels, tables, timing, truth_chart, user_scene,
-                   user_study, wedge)
+from study import (annulus_scene, charts, choice, cohesion, convergence, figures, frames, grain_shapes, ladders, level_study, levels,  # noqa: E402
+                   loop_data, measures, patch_walls, power, programs, runs, scene_bed, scene_grains, section, shape_levels, tables, timing, truth_chart,
+                   user_scene, user_study, wedge)
 from study.commands import creeping_drag  # noqa: E402
 
 

@@ -13,6 +13,7 @@
 #include <functional>
 #include <map>
 #include <stdexcept>
+#include <type_traits>
 
 namespace eccentra::styles {
 // Settings offers on/off, yes/no and numbers; its list of arguments has no other way in.
@@ -54,9 +55,10 @@ class OptionSetting : public Setting {
   std::vector<std::pair<std::string, int>> options_;
 };
 
-class SwitchSetting : public Setting {
+/// One value that OptionReader reads: a switch (bool) or a factor (double).
+template <class Value> class ReadSetting : public Setting {
  public:
-  SwitchSetting(const std::string& model, const std::string& name, bool& target)
+  ReadSetting(const std::string& model, const std::string& name, Value& target)
       : Setting(name, 1), model_(model), target_(target) {}
 
   int parseArguments(char** args) override {
@@ -65,7 +67,10 @@ class SwitchSetting : public Setting {
     base::OptionReader reader({args[0], args[1]});
     reader.keyword();
     try {
-      target_ = reader.on_off();
+      if constexpr (std::is_same_v<Value, bool>)
+        target_ = reader.on_off();
+      else
+        target_ = reader.factor();
     } catch (const std::invalid_argument& problem) {
       error_message = model_ + ": " + problem.what();
       return -1;
@@ -73,11 +78,16 @@ class SwitchSetting : public Setting {
     return 2;
   }
 
-  void print_value(FILE* out) override { std::fprintf(out, "%s", target_ ? "on" : "off"); }
+  void print_value(FILE* out) override {
+    if constexpr (std::is_same_v<Value, bool>)
+      std::fprintf(out, "%s", target_ ? "on" : "off");
+    else
+      std::fprintf(out, "%g", target_);
+  }
 
  private:
   std::string model_;
-  bool& target_;
+  Value& target_;
 };
 
 /// Reads the words of any family of shapes: they end where a keyword of the model begins, or the line of the script.
@@ -135,7 +145,13 @@ void register_option(Settings& settings, const std::string& model, const std::st
 void register_switch(Settings& settings, const std::string& model, const std::string& name, bool& target) {
   Setting*& entry = (settings.*Published<SettingsList>::pointer)[name];
   if (!entry)
-    entry = new SwitchSetting(model, name, target);
+    entry = new ReadSetting(model, name, target);
+}
+
+void register_factor(Settings& settings, const std::string& model, const std::string& name, double& target) {
+  Setting*& entry = (settings.*Published<SettingsList>::pointer)[name];
+  if (!entry)
+    entry = new ReadSetting(model, name, target);
 }
 
 } // namespace eccentra::styles

@@ -21,6 +21,9 @@ void register_option(Settings& settings, const std::string& model, const std::st
 /// `name on|off`, also yes, no and none; `target` has the default. It must outlive the parsing.
 void register_switch(Settings& settings, const std::string& model, const std::string& name, bool& target);
 
+/// `name on|off|FACTOR`: 1, 0 or a number of at least 0; `target` has the default. It must outlive the parsing.
+void register_factor(Settings& settings, const std::string& model, const std::string& name, double& target);
+
 /// `shape WORDS`, those of any family of shapes, up to the next keyword of the model or the end of the line: they go to
 /// `target`, which must outlive the parsing.
 void register_shape_keywords(const LAMMPS_NS::LAMMPS& lmp, Settings& settings, const std::string& model,

@@ -31,7 +31,7 @@ template <> class RollingModel<ROLLING_ECCENTRIC> : public RollingModelBase {
 
   void registerSettings(Settings& settings) {
     eccentra::styles::register_shape_keywords(*lmp, settings, "rolling_friction eccentric", shape_keywords_);
-    eccentra::styles::register_switch(settings, "rolling_friction eccentric", "rockingDamping", damped_);
+    eccentra::styles::register_factor(settings, "rolling_friction eccentric", "rockingDamping", damping_);
     settings.registerDoubleSetting("orientationSeed", seed_, 1.0);
   }
 
@@ -105,7 +105,7 @@ template <> class RollingModel<ROLLING_ECCENTRIC> : public RollingModelBase {
     const double* const q = spheres_->orientation(particle);
     // T = R (sum of c times its force) x n; the dashpot acts on the normal velocity that the spin gives the
     // sub-spheres.
-    const eccentra::contact::ContactLoad load{contact.Fn, damped_ ? contact.gamman * radius : 0.0,
+    const eccentra::contact::ContactLoad load{contact.Fn, damping_ * contact.gamman * radius,
                                               n.cross(Eigen::Map<const Eigen::Vector3d>(spin))};
     const Eigen::Vector3d moment = eccentra::contact::turned_moment(spheres_->shape(), {q[0], q[1], q[2], q[3]}, -n,
                                                                     contact.deltan / radius, load);
@@ -119,7 +119,7 @@ template <> class RollingModel<ROLLING_ECCENTRIC> : public RollingModelBase {
     if (batch_.full())
       evaluate();
     batch_.add(particle, spheres_->orientation(particle), radius, outward, spin, contact.deltan / radius, contact.Fn,
-               damped_ ? contact.gamman : 0.0);
+               damping_ * contact.gamman);
   }
 
   void evaluate() {
@@ -132,7 +132,7 @@ template <> class RollingModel<ROLLING_ECCENTRIC> : public RollingModelBase {
   }
 
   bool is_wall_;
-  bool damped_ = true;
+  double damping_ = 1.0; ///< of rocking, over that of the contact's normal damper
   double seed_ = 1.0;
   std::vector<std::string> shape_keywords_;
   eccentra::styles::FixSphereOrientation* spheres_ = nullptr;

@@ -19,7 +19,7 @@ class EccentricWallRolling : public WallRolling {
     if (reader.peek() != "rockingDamping")
       return false;
     reader.keyword();
-    damped_ = reader.on_off();
+    damping_ = reader.factor();
     return true;
   }
 
@@ -35,7 +35,7 @@ class EccentricWallRolling : public WallRolling {
   Eigen::Vector3d torque(const WallRollingContact& contact) override {
     const double* const q = spheres_->orientation(contact.atom);
     const double depth = contact.elastic_normal / (contact.stiffness * contact.lever);
-    const contact::ContactLoad load{contact.normal_force, damped_ ? contact.normal_damping * contact.lever : 0.0,
+    const contact::ContactLoad load{contact.normal_force, damping_ * contact.normal_damping * contact.lever,
                                     contact.normal.cross(contact.angular_velocity)};
     return contact.lever *
            contact::turned_moment(spheres_->shape(), {q[0], q[1], q[2], q[3]}, -contact.normal, depth, load)
@@ -43,7 +43,7 @@ class EccentricWallRolling : public WallRolling {
   }
 
  private:
-  bool damped_ = true;
+  double damping_ = 1; ///< of rocking, over that of the contact's normal damper
   FixSphereOrientation* spheres_ = nullptr;
 };
 

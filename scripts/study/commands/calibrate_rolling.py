@@ -8,11 +8,11 @@ from .. import calibration, charts, dry, level_study, levels, measures, options,
 from ..programs import Failure
 
 SCENES = (*dry.SCENES, "mine")
-RANGES = {"mu_shape": (0.0, 0.9), "mu_s": (0.05, 1.5)}
+RANGES = {"mu_shape": (0.0, 0.9), "mu_s": (0.05, 1.5), "rockingDamping": (0.0, 40.0)}
 START = 0.3  # part of the range where the third point is set: most of the change is at small coefficients
 FINEST = 0.01  # an interval below is not divided
 MOST_POINTS = 8  # of one search
-WORDS = {"mu_shape": "rolling friction mu_shape", "mu_s": "sliding friction mu_s"}
+WORDS = {"mu_shape": "rolling friction mu_shape", "mu_s": "sliding friction mu_s", "rockingDamping": "rockingDamping of rolling_friction eccentric"}
 
 
 class Place:
@@ -54,7 +54,9 @@ class Place:
 
 
 def sphere(words, coefficient):
-    """The sphere with a coefficient; the other one is that of the options."""
+    """The sphere with a coefficient; the other ones are those of the options. An eccentric sphere has the shape of the true body."""
+    if words.vary == "rockingDamping":
+        return levels.Level(f"S1 rockingDamping {coefficient:.4g}", "eccentric", words.ladder.levels[-1].shape, damping=round(coefficient, 4))
     mu = round(coefficient, 4) if words.vary == "mu_shape" else words.mu_shape
     return levels.Level(f"S1 {words.vary} {coefficient:.4g}", "friction", mu=mu, slide=round(coefficient, 4) if words.vary == "mu_s" else None)
 
@@ -99,9 +101,11 @@ def parse():
     parser.add_argument("--mine", type=pathlib.Path, metavar="FILE", help="a LIGGGHTS script of your own (docs/howto-own-accuracy.md), judged, too")
     parser.add_argument("--measure", metavar="COLUMN", help="of --mine: f_x, v_x or another column of its thermo output")
     parser.add_argument("--share", type=float, default=0.5, help="of --mine: part of the rows of its last run whose mean is the result (default: 0.5)")
-    parser.add_argument("--vary", choices=tuple(RANGES), default="mu_shape", help="what is fitted: rolling or sliding friction (default: mu_shape)")
+    parser.add_argument("--vary", choices=tuple(RANGES), default="mu_shape", help="what is fitted: rolling or sliding friction, or the damping "
+                        "of a sphere with rolling_friction eccentric (default: mu_shape)")
     parser.add_argument("--mu-shape", type=float, default=0.0, help="rolling friction while mu_s is fitted (default: 0)")
-    parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"), help="of the coefficient (default: 0 0.9; of mu_s 0.05 1.5)")
+    parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"),
+                        help="of the coefficient (default: 0 0.9; of mu_s 0.05 1.5; of rockingDamping 0 40)")
     parser.add_argument("--seeds", type=options.at_least_one, default=4, help=f"runs of each point, 2 to {len(dry.SEEDS)} (default: 4)")
 
     def check(words):
@@ -120,6 +124,8 @@ def parse():
             parser.error("--mine FILE and --measure COLUMN belong together; expected both")
         if "mine" in words.scene and words.mine is None:
             parser.error("--scene mine needs --mine FILE and --measure COLUMN")
+        if words.mine and words.vary == "rockingDamping":
+            parser.error("--vary rockingDamping is there for our scenes alone; expected --mine left out")
         words.script = user_scene.read(words.mine.resolve(), words.measure, words.share) if words.mine else None
         needed = {"rolling", "mu_shape"} | ({"mu_s"} if words.vary == "mu_s" else set())
         if words.script and (left := sorted(needed - words.script.declared)):

@@ -16,6 +16,7 @@ TORSION_OFF = "torsionTorque off"
 ALL_SEEDS = 8
 # Coefficients of eq (19) at each contact of a cluster: what hysteresis adds to shape.
 HYSTERESIS = (0.05, 0.1, 0.2, 0.3)
+DAMPINGS = (3, 10, 30)  # of rockingDamping
 
 
 class Model:
@@ -44,7 +45,8 @@ def models(shape):
         "shape-limited": Model("shape", "form limited", kind="shape"),
         "shape-epsd": Model("shape", "form epsd", kind="shape"),
         "shape-directional": Model("shape", "form directional", kind="shape"),
-        "eccentric": Model("eccentric", f"shape {shape}", "tangential_damping on", kind="eccentric"),
+        **{name: Model("eccentric", f"shape {shape} {damping}".strip(), f"tangential_damping on {damping}".strip(), kind="eccentric")
+           for name, damping in {"eccentric": "", **{f"eccentric-{factor}": f"rockingDamping {factor}" for factor in DAMPINGS}}.items()},
     }
 
 
@@ -233,7 +235,7 @@ def default_seeds(scene, quick):
 
 def main():
     names = list(models("cube 64"))
-    few = [name for name in names if not name.startswith("cluster-")]
+    few = [name for name in names if not name.startswith(("cluster-", "eccentric-"))]
     parser = options.Parser(
         "compare-rolling", "Compares rolling models with clusters: " + "; ".join(f"{k}: {v[0]} [{v[1]}]" for k, v in SCENES.items()),
         "fewer bodies, 2 seeds (8 for single bodies): within 5 minutes on 2 cores",

@@ -154,7 +154,8 @@ def main():
             page += loop_data.compare(words.loop, climbed.values, drawn)
     if words.plan:
         return 0
-    settings = (f"fillings {', '.join(f'{100 * r:g} %' for r in size.rungs)}{f' and {size.refine} between' if size.refine else ''}, {size.length} m, cells {size.cells.replace(' ', 'x')}, "
+    further = f" and up to {size.refine} between" if size.refine else ""
+    settings = (f"fillings {', '.join(f'{100 * r:g} %' for r in size.rungs)}{further}, {size.length} m, cells {size.cells.replace(' ', 'x')}, "
                 f"{size.seconds} s, {size.turbulence or 'laminar'}, means over the last {100 * ladders.SHARE:.0f} % of it, {size.seeds} seed(s)")
     return tables.finish(words, page, failed, settings)
 

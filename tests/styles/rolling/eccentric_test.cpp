@@ -252,6 +252,37 @@ TEST(Eccentric, KeepsEnergyUnderAConstantForce) {
               slowest / v0);
 }
 
+// A factor of rockingDamping multiplies the damper: at the same state its torque, and so the change of the spin in one
+// step, is linear in the factor, but for what the spin changes in half a step; on is 1 and off is 0. One sphere on a
+// floor of stock and of ours, and one on another.
+TEST(Eccentric, RockingDampingIsAFactor) {
+  const std::string our_floor = "fix floor all wall/gran/cluster model hertz tangential history rolling_friction "
+                                "eccentric primitive type 1 zplane 0.0 ";
+  const auto spin_after = [&](const std::string& word, int kind) {
+    const std::string argument = "rockingDamping " + word;
+    RollingScene scene = eccentric_scene(argument);
+    scene.timestep = 1e-8;
+    const Eigen::Vector3d above(0, 0, kRadius - 1e-6);
+    LiggghtsSession session;
+    session.script(rolling_scene(scene) + (kind == 1 ? our_floor + argument + "\n" : floor_line(argument)) +
+                   sphere_at(above) + (kind == 2 ? sphere_at({1e-4, 0, 3 * kRadius - 3e-6}) : "") + spheres_done() +
+                   "run 0\n");
+    const int tag = kind == 2 ? 2 : 1;
+    set_orientation(session, tag, Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized())));
+    set_motion(session, tag, {0, 0, 0}, {3, -5, 1});
+    run(session, 1);
+    return sphere(session, tag).omega;
+  };
+  for (const int kind : {0, 1, 2}) {
+    const Eigen::Vector3d off = spin_after("off", kind);
+    const Eigen::Vector3d on = spin_after("on", kind);
+    EXPECT_GT((on - off).norm(), 1e-7) << kind;
+    EXPECT_EQ(spin_after("1", kind), on) << kind;
+    EXPECT_EQ(spin_after("0", kind), off) << kind;
+    EXPECT_LT((spin_after("2.5", kind) - off - 2.5 * (on - off)).norm(), 1e-4 * (on - off).norm()) << kind;
+  }
+}
+
 // Spheres that fall into a box come to rest, later than with friction: rocking has to be damped on every contact.
 TEST(Eccentric, BoxComesToRest) {
   RollingScene scene = eccentric_scene("");
