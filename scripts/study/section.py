@@ -49,7 +49,7 @@ def run_case(build, folder, words, case="case", source=CASE):
     """Runs a case with options of its `run` (without --); the folder in which it ran, CPU and wall seconds."""
     ran = folder / case
     shutil.rmtree(ran, ignore_errors=True)
-    cpu, wall, _ = run([source / "run", "--bin", build / "bin", "--output", ran, *programs.options(**words)], folder, folder / "out.txt")
+    cpu, wall, _ = run([programs.RUN_CASE, source, "--bin", build / "bin", "--output", ran, *programs.options(**words)], folder, folder / "out.txt")
     return ran, cpu, wall
 
 

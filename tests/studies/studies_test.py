@@ -354,6 +354,19 @@ class Timing(unittest.TestCase):
         self.assertAlmostEqual(sum(timing.scaled(parts, 4.0).values()), 4.0)
 
 
+class Section(unittest.TestCase):
+    def test_tolerances_reach_the_solver(self):
+        words = {"seconds": 0.02, "length": 0.1, "cells": "4 16 5", "count": 20, "inclination": 0, "velocity": 0.58, "seed": section.SEEDS[0],
+                 "report": 1, "interval": 64}
+        with tempfile.TemporaryDirectory() as folder:
+            job = section.section_job(BUILD, "short", words, keep="ran", tolerances=("0.25", "0.125"))
+            self.assertGreater(job.work(pathlib.Path(folder))["mean"]["gradient"][0], 0)
+            text = (pathlib.Path(folder) / "ran" / "system" / "fvSolution").read_text()
+        self.assertIn("pFinal  { $p; relTol 0.25; }", text)
+        self.assertIn("UFinal  { $U; relTol 0.125; }", text)
+        self.assertNotEqual(job.key(), section.section_job(BUILD, "short", words, keep="ran").key())
+
+
 class Levels(unittest.TestCase):
     def test_step_divides_the_period_and_keeps_the_margin(self):
         step, parts = levels.dividing_step(5e-3, 1e-4)

@@ -19,7 +19,7 @@ SIZES = {
         methods=method_study.Size(inclinations=(80,), seeds=1, seconds=1.0, finest=False, clusters=False)),
     "standard": level_study.Size(
         bodies=("cube", "disk"), few_bodies=True, seeds=3, most_seeds=10, dry_levels=MORE,
-        seeds_beside=1, length=0.15, cells="8 32 10", seconds={0: 1.0, 40: 2.0, 80: 2.5},
+        seeds_beside=3, length=0.15, cells="8 32 10", seconds={0: 1.0, 40: 2.0, 80: 2.5},
         points=ALL_POINTS, section_levels=("S1", "mean", "eccentric", "C8", "C64", "C216", "D7", "D48", "D80"),
         hopper_levels=HOPPER, levels_beside=("S1", "mean", "C64", "D48"),
         methods=method_study.Size(inclinations=(0, 80), seeds=1, seconds=2.0, finest=False)),
