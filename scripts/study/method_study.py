@@ -13,6 +13,7 @@ DISKS = {"shape": "disk 48", "interval": 192}  # DEM steps for clusters: 0.3 of 
 CUBES = {"shape": "cube 8", "interval": 128}
 BED = (80,)  # inclinations at which bodies come to rest
 PANELS = 5  # of a chart in a row
+STEPS = ("mesh", "fluid step", "tolerance", "DEM step", "regularisation")  # families whose members are steps of one number: joined in the chart
 BASE = {"velocity": VELOCITY, "length": LENGTH, "cells": "8 32 10", "fluid_step": 5e-3, "interval": 64, "safety": 2}
 PERCENT = 2.0  # the accuracy that the plain words ask for
 RESULTS = ("gradient", "flux", "height")  # of section.QUANTITIES
@@ -189,5 +190,5 @@ class Study:
             label = row["name"].replace(" explicit", "").replace(f"{kind} ", "") if kind else row["name"]
             kinds.setdefault(kind, []).append(charts.Point(row["cpu"], 100 * off, 100 * error, label))
         series = [charts.Series(kind or "semi-implicit" * (family == "fluid step"), sorted(points, key=lambda p: p.x), charts.COLOURS[k],
-                                family != "void fraction") for k, (kind, points) in enumerate(kinds.items())]
+                                family in STEPS) for k, (kind, points) in enumerate(kinds.items())]
         return charts.Panel(f"{family}, {inclination} degrees", "CPU seconds of a run", f"pressure gradient: off {reference} [%]", series, True)
