@@ -6,6 +6,7 @@ import math
 from . import convergence, tables
 
 NONE = "-"
+DRIFT, SURE = 0.02, 3.0  # of the value, and standard errors, above which a result is not steady
 
 
 def _signed(value, error):
@@ -31,6 +32,14 @@ def _row(group):
             *((f"{100 * plain.deviation:+.0f}", tables.number(plain.cpu / reference.cpu, 2)) if plain else (NONE, NONE)),
             knee.level.name if knee else NONE, *_clusters(group), f"{100 * abs(reference.error / reference.value):.1f}" if reference.value else NONE,
             f"{100 * max(errors):.0f}" if errors else NONE]
+
+
+def not_steady(groups):
+    """What still changed while means were taken, as a paragraph; nothing where all are steady, or where no run says it."""
+    text = [f"{group.title}: " + ", ".join(f"{row.level.name} {_signed(*row.drift)} %" for row in moving)
+            for group in groups if (moving := [row for row in group.rows if abs(row.drift[0]) > max(DRIFT, SURE * row.drift[1])])]
+    return [f"Not steady: from the first to the second half of the time over which means were taken, results changed by more than {100 * DRIFT:g} % and "
+            f"{SURE:g} standard errors. {'; '.join(text)}.\n"] if text else []
 
 
 def page_of(groups):

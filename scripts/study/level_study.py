@@ -67,6 +67,7 @@ class Row:
     deviation: float = math.nan
     deviation_error: float = math.nan
     values: dict = dataclasses.field(default_factory=dict)  # by seed
+    drift: tuple = (math.nan, math.nan)  # in the time over which means were taken, with its standard error, over |value|
 
     def unsure(self):
         """The deviation as it can be told: not less than its standard error."""
@@ -237,7 +238,8 @@ class Study:
                     at = wet_levels if point[1] == CENTRAL_VELOCITY else beside
                     self.group(f"section {point[0]} {point[1]} {quantity}", body, title, unit, at, of, point,
                                lambda r, q=quantity, s=scale: r["mean"][q][0] * s, RESTITUTION_SECTION, JUDGED_BY[point[0]] == quantity,
-                               lambda r, q=quantity, s=scale: r["mean"][q][1] * s)
+                               lambda r, q=quantity, s=scale: r["mean"][q][1] * s,
+                               lambda r, q=quantity, s=scale: [value * s for value in r["drift"][q]])
         return self.failures
 
     def run_scene(self, body, scene, chosen, jobs, results):
@@ -279,8 +281,8 @@ class Study:
         return section.section_job(self.build, f"annulus {inclination} deg {velocity} m/s {level.name} seed {seed}", words,
                                    spheres=level.spheres)
 
-    def group(self, scene, body, title, unit, chosen, results, place, value_of, restitution, judged, error_in_time=None):
-        """`error_in_time` of a run's mean stands where there is one run alone."""
+    def group(self, scene, body, title, unit, chosen, results, place, value_of, restitution, judged, error_in_time=None, drift_of=None):
+        """`error_in_time` of a run's mean stands where there is one run alone; `drift_of` a run: (drift, error), in the unit of its value."""
         rows = []
         for level in chosen:
             by_seed = {seed: r for (b, p, name, seed), r in results.items() if (b, p, name) == (body, place, level.name)}
@@ -296,10 +298,12 @@ class Study:
             mean = lambda of: measures.mean_and_error([of(r) for r in timed])[0]
             critical = self.critical[level.name, restitution]
             period = dry.FRAME if place in dry.SCENES else section.FLUID_STEP
+            drifts = [drift_of(r) for r in good] if drift_of and value else []
             rows.append(Row(level, value, error, len(good), mean(lambda r: r["cpu"]), mean(lambda r: r["wall"]),
                             {part: mean(lambda r, part=part: r["parts"][part]) for part in timing.PARTS},
                             levels.dividing_step(period, critical["critical"])[0] if self.with_step([level], restitution) else math.nan, critical, failed,
-                            values={seed: value_of(r) for seed, r in by_seed.items() if runs.good(r)}))
+                            values={seed: value_of(r) for seed, r in by_seed.items() if runs.good(r)},
+                            drift=tuple(v / abs(value) for v in measures.mean_of_measured(drifts)) if drifts else (math.nan, math.nan)))
         group = Group(scene, body, title, unit, rows, judged, place in dry.SCENES or place[1] == CENTRAL_VELOCITY)
         group.compare()
         self.groups.append(group)
@@ -352,7 +356,7 @@ class Study:
                     first += [f"![levels of the {body}{more}]({name}.svg)\n"]
             if len(central) > 1:
                 first.append(self.overall_words(body, central))
-            first += choice.page_of(shown)
+            first += choice.page_of(shown) + choice.not_steady(shown)
         page[1:1] = first
         page += self.summary()
         for body in self.bodies:

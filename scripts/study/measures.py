@@ -14,6 +14,11 @@ def mean_and_error(values):
     return statistics.fmean(values), statistics.stdev(values) / math.sqrt(len(values))
 
 
+def mean_of_measured(pairs):
+    """Mean of independent (value, standard error), and its standard error."""
+    return statistics.fmean(value for value, _ in pairs), math.hypot(*(error for _, error in pairs)) / len(pairs)
+
+
 def deviation(value, error, reference, reference_error):
     """(value - reference) / reference and its standard error to first order; the two are independent. An error that is
     not known (nan) counts as none; a reference of zero gives nan."""
@@ -36,6 +41,22 @@ def paired_deviation(pairs):
         return ratio - 1, math.nan
     square = sum((value - ratio * reference) ** 2 for value, reference in pairs) / (len(pairs) - 1)
     return ratio - 1, math.sqrt(square * len(pairs)) / abs(total)
+
+
+BLOCKS = 5  # of neighbours, in each half of a series
+
+
+def drift(values):
+    """Mean of the second half of a series in time less that of the first, and its standard error from the spread of blocks of neighbours, which are
+    taken as independent; nan for a series that is too short for blocks."""
+    half = len(values) // 2
+    size = half // BLOCKS
+    if size < 1:
+        return math.nan, math.nan
+    halves = [mean_and_error([statistics.fmean(part[k * size:(k + 1) * size]) for k in range(BLOCKS)])
+              for part in (values[len(values) - 2 * half:][:half], values[-half:])]
+    (before, e), (after, f) = halves
+    return after - before, math.hypot(e, f)
 
 
 def runs_for(error, runs, wanted):

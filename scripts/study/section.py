@@ -6,7 +6,7 @@ import math
 import re
 import shutil
 
-from . import programs, runs, timing
+from . import measures, programs, runs, timing
 from .levels import dividing_step, shape_key
 from .programs import CASES, Failure, digest_of, run
 
@@ -23,6 +23,7 @@ SEEDS = (49979687, 67867967, 86028121, 15485867, 32452867, 49979693, 67867979, 8
 QUANTITIES = {"flux": ("solid flux", 1e-6), "gradient": ("pressure gradient", 1.0), "height": ("height of the solid's centre", 1e-3),
               "concentration": ("solid concentration", 1e-2), "bed": ("bed height (profile)", 1e-3)}
 
+DRIFTS = {"flux": "solids_flux", "gradient": "pressure_gradient", "height": "com_y"}  # columns of coupling.csv whose change tells that of a quantity
 # Arguments of fix fluid/force: forces of the sphere of equal volume, and of the real shape.
 FORCES = {"sphere": "drag chien pressure_gradient on drag_torque dennis",
           "oriented": "drag chien pressure_gradient on drag_torque dennis oriented on strain_torque jeffery pitching_torque dabade"}
@@ -107,7 +108,7 @@ def with_tolerances(folder, tolerances):
 
 def section_job(build, name, words, share=0.5, spheres=1, keep=None, tolerances=None):
     """A run with options of the case's `run` (without --); the result: means over the last `share` of it with their standard
-    errors in time, the end of the run, time and its parts. `keep`: name under which the case stays in the job's folder;
+    errors in time and how they drift within it, SI units, the end of the run, time and its parts. `keep`: name under which the case stays in the job's folder;
     `tolerances`: relTol of pressure and velocity in place of the case's."""
     described = {key: shape_key(value) if key == "shape" else str(value) for key, value in words.items()}
     inputs = {"what": "section", "case": case_digest(), **described, "share": share, **({"keep": keep} if keep else {}),
@@ -117,11 +118,13 @@ def section_job(build, name, words, share=0.5, spheres=1, keep=None, tolerances=
         source = with_tolerances(folder, tolerances) if tolerances else CASE
         case, cpu, wall = run_case(build, folder, words, keep or "case", source)
         run([build / "bin" / "annulusReport", case, "-o", folder, "--share", share, "--no-pictures"], folder, folder / "report.txt")
-        last = rows_of(case)[-1]
+        rows = rows_of(case)
+        last, late = rows[-1], rows[-max(1, round(share * len(rows))):]
         parts = timing.parts_of((case / "log.liggghts").read_text(errors="replace"))
         parts["fluid"] += last["fluid_seconds"]
         parts["link"] = last["exchange_seconds"] + last["link_seconds"]
-        result = {"mean": read_summary(folder / "summary.csv"), "bodies": int(last["particles"]),
+        drifts = {name: measures.drift([row[column] for row in late]) for name, column in DRIFTS.items()}
+        result = {"mean": read_summary(folder / "summary.csv"), "drift": drifts, "bodies": int(last["particles"]),
                   "fastest": last["fastest_particle"], "cpu": cpu, "wall": wall, "parts": timing.scaled(parts, cpu)}
         if not keep:
             shutil.rmtree(case)  # tens of MB; inputs and result stay

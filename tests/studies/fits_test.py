@@ -16,7 +16,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("ECCENTRA_BUILD", ROOT / "build"))
 sys.path.insert(0, str(ROOT / "scripts"))
-from study import calibration, forecast, least_squares, level_study, levels, method_study, prediction, timing  # noqa: E402
+from study import calibration, choice, forecast, least_squares, level_study, levels, method_study, prediction, timing  # noqa: E402
 from study.commands import accuracy_cost  # noqa: E402
 
 
@@ -75,8 +75,8 @@ class Calibration(unittest.TestCase):
 
 class Reported:
     """A store in which every run has ended, with what the report of a vertical hole has: no height of the solids' centre."""
-    RESULT = {"mean": {"flux": (2e-4, 1e-6), "gradient": (300.0, 1.0)}, "cpu": 2.0, "wall": 3.0, "critical": 1e-4, "contacts": 3,
-              "parts": dict.fromkeys(timing.PARTS, 0.1)}
+    RESULT = {"mean": {"flux": (2e-4, 1e-6), "gradient": (300.0, 1.0)}, "drift": {"flux": (-1e-5, 1e-6), "gradient": (1.0, 2.0)},
+              "cpu": 2.0, "wall": 3.0, "critical": 1e-4, "contacts": 3, "parts": dict.fromkeys(timing.PARTS, 0.1)}
 
     def run_all(self, _, jobs):
         return {job.key(): self.RESULT for job in jobs}
@@ -97,6 +97,8 @@ class VerticalHole(unittest.TestCase):
             self.assertEqual([(group.scene, group.judged) for group in study.groups],
                              [("section 0 0.58 flux", True), ("section 0 0.58 gradient", False)])
             self.assertEqual(study.groups[0].rows[0].value, 200)
+            self.assertIn("annulus 0 deg, 0.58 m/s: solids flux at 5 %: S1 -5.0 +- 0.4 %, ", choice.not_steady(study.groups)[0])  # of two seeds
+            self.assertNotIn("gradient", choice.not_steady(study.groups)[0])
             methods = method_study.Study(Reported(), BUILD, dataclasses.replace(size, methods=dataclasses.replace(size.methods, inclinations=(0,))),
                                          pathlib.Path(folder))
             self.assertEqual(methods.run(), [])

@@ -32,6 +32,17 @@ class Measures(unittest.TestCase):
         self.assertEqual(measures.mean_and_error([7.0])[0], 7.0)
         self.assertTrue(math.isnan(measures.mean_and_error([7.0])[1]))
 
+    def test_drift(self):
+        chance = random.Random(4)
+        change, error = measures.drift([0.1 * k for k in range(100)])
+        self.assertAlmostEqual(change, 5)  # of a ramp: half of its length times its slope
+        self.assertAlmostEqual(error, math.hypot(*2 * [statistics.stdev([0.0, 1, 2, 3, 4]) / math.sqrt(5)]))  # blocks of ten rise by one
+        steady = [measures.drift([chance.gauss(1, 0.2) for _ in range(200)]) for _ in range(200)]
+        self.assertGreater(sum(abs(d) < 3 * e for d, e in steady), 190)  # Student's distribution with few blocks: 1.7 % lie beyond
+        self.assertAlmostEqual(statistics.fmean(e for _, e in steady), 0.2 * math.sqrt(2 / 100), delta=0.002)
+        self.assertTrue(all(math.isnan(v) for v in measures.drift([1.0] * 9)))
+        self.assertEqual(measures.mean_of_measured([(1.0, 0.3), (3.0, 0.4)]), (2.0, 0.25))
+
     def test_deviation_and_its_error(self):
         off, error = measures.deviation(11.0, 0.3, 10.0, 0.4)
         self.assertAlmostEqual(off, 0.1)
