@@ -27,10 +27,12 @@ def _row(group):
     plain = next((row for row in rows if row.level.kind == "sphere"), None)
     knee = group.front()[1]
     errors = [row.deviation_error for row in rows if not math.isnan(row.deviation_error)]
-    return [group.title, f"{tables.number(reference.value)} +- {tables.number(reference.error, 2)} {group.unit}".rstrip(), reference.cpu,
+    known = not math.isnan(reference.error)
+    value = f"{tables.number(reference.value)}{f' +- {tables.number(reference.error, 2)}' if known else ''} {group.unit}".rstrip()
+    return [group.title, value, reference.cpu,
             *((near.level.name, _signed(near.deviation, near.deviation_error), tables.number(reference.cpu / near.cpu, 2)) if near else ("none", NONE, NONE)),
             *((f"{100 * plain.deviation:+.0f}", tables.number(plain.cpu / reference.cpu, 2)) if plain else (NONE, NONE)),
-            knee.level.name if knee else NONE, *_clusters(group), f"{100 * abs(reference.error / reference.value):.1f}" if reference.value else NONE,
+            knee.level.name if knee else NONE, *_clusters(group), f"{100 * abs(reference.error / reference.value):.1f}" if reference.value and known else NONE,
             f"{100 * max(errors):.0f}" if errors else NONE]
 
 

@@ -781,7 +781,8 @@ class Scripts(unittest.TestCase):
             self.assertGreater(float(table["smooth 0.15"]["mean"]), 4.0)  # 6.1, from seed to seed 0.7
             self.assertAlmostEqual(float(table["S1"]["deviation"]), -1, delta=0.2)
             self.assertTrue((pathlib.Path(folder) / "truth-cube.svg").is_file())
-            self.assertIn("the reference smooth 0.15 gives", (pathlib.Path(folder) / "results.md").read_text())
+            self.assertRegex((pathlib.Path(folder) / "results.md").read_text(), r"\| slope of a heap \| [\d.]+ degrees \|")
+            self.assertIn("the reference smooth 0.15 gives", (pathlib.Path(folder) / "levels.txt").read_text())
             again = run("accuracy-cost", *words)
             self.assertNotIn(" s of CPU |", again.stderr)  # nothing is repeated
             self.assertEqual(again.returncode, 0)
