@@ -16,6 +16,8 @@ SupportTable::SupportTable(const shape::ClusterShape& shape) {
     corners_.push_back({sphere.centre * unit, sphere.radius * unit});
   }
   keep_corners();
+  for (const shape::Sphere& corner : corners_)
+    longest_arm_ = std::max(longest_arm_, corner.centre.norm());
   if (few())
     append_blocks(corners_, few_corners_);
   else

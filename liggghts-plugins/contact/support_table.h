@@ -76,6 +76,8 @@ class SupportTable {
 
   /// The sub-spheres of the table, in units of R_eq, body frame.
   const std::vector<shape::Sphere>& corners() const { return corners_; }
+  /// Longest distance of a corner's centre from that of the shape, in units of R_eq.
+  double longest_arm() const { return longest_arm_; }
   /// Number of corners up to which a test of each is faster than the table.
   bool few() const { return corners_.size() <= static_cast<std::size_t>(kFewCorners); }
   /// carried_moment of this shape.
@@ -99,6 +101,7 @@ class SupportTable {
   static void append_blocks(const std::vector<shape::Sphere>& spheres, std::vector<SphereBlock>& blocks);
 
   std::vector<shape::Sphere> corners_;
+  double longest_arm_ = 0;
   std::vector<SphereBlock> few_corners_;
   std::vector<int> first_; ///< per cell: its first block; one more entry at the end
   std::vector<SphereBlock> cell_blocks_;

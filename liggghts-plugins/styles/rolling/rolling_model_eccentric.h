@@ -10,6 +10,7 @@ ROLLING_MODEL(ROLLING_ECCENTRIC, eccentric, 21)
 #include "contact_models.h"
 
 #include "contact/eccentric_batch.h"
+#include "contact/rocking_damper.h"
 #include "styles/rolling/contact_keywords.h"
 #include "styles/rolling/fix_sphere_orientation.h"
 #include "styles/rolling/wall_spin.h"
@@ -20,6 +21,7 @@ ROLLING_MODEL(ROLLING_ECCENTRIC, eccentric, 21)
 #include "error.h"
 #include "force.h"
 #include "pair_gran.h"
+#include "update.h"
 
 namespace LIGGGHTS {
 namespace ContactModels {
@@ -105,7 +107,7 @@ template <> class RollingModel<ROLLING_ECCENTRIC> : public RollingModelBase {
     const double* const q = spheres_->orientation(particle);
     // T = R (sum of c times its force) x n; the dashpot acts on the normal velocity that the spin gives the
     // sub-spheres.
-    const eccentra::contact::ContactLoad load{contact.Fn, damping_ * contact.gamman * radius,
+    const eccentra::contact::ContactLoad load{contact.Fn, damper(contact, particle) * radius,
                                               n.cross(Eigen::Map<const Eigen::Vector3d>(spin))};
     const Eigen::Vector3d moment = eccentra::contact::turned_moment(spheres_->shape(), {q[0], q[1], q[2], q[3]}, -n,
                                                                     contact.deltan / radius, load);
@@ -119,7 +121,13 @@ template <> class RollingModel<ROLLING_ECCENTRIC> : public RollingModelBase {
     if (batch_.full())
       evaluate();
     batch_.add(particle, spheres_->orientation(particle), radius, outward, spin, contact.deltan / radius, contact.Fn,
-               damping_ * contact.gamman);
+               damper(contact, particle));
+  }
+
+  /// That of the normal velocities of the sub-spheres of a particle [N s/m].
+  double damper(const SurfacesIntersectData& contact, int particle) const {
+    return eccentra::contact::rocking_damper(contact.gamman, damping_, particle == contact.i ? contact.mi : contact.mj,
+                                             spheres_->shape().longest_arm(), update->dt);
   }
 
   void evaluate() {

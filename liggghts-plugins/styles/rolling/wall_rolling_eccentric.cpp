@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // rolling_friction eccentric at our walls: eq (32) with the shape that pair_style gives the spheres.
 #include "base/option_reader.h"
+#include "contact/rocking_damper.h"
 #include "styles/rolling/fix_sphere_orientation.h"
 #include "styles/rolling/wall_rolling.h"
+
+#include "lammps.h"
+#include "update.h"
 
 #include <stdexcept>
 
@@ -24,6 +28,7 @@ class EccentricWallRolling : public WallRolling {
   }
 
   void init(LAMMPS_NS::LAMMPS* lmp) override {
+    lmp_ = lmp;
     spheres_ = FixSphereOrientation::find(lmp);
     if (!spheres_)
       throw std::invalid_argument("rolling_friction eccentric takes the shape from pair_style: give pair_style gran "
@@ -35,7 +40,9 @@ class EccentricWallRolling : public WallRolling {
   Eigen::Vector3d torque(const WallRollingContact& contact) override {
     const double* const q = spheres_->orientation(contact.atom);
     const double depth = contact.elastic_normal / (contact.stiffness * contact.lever);
-    const contact::ContactLoad load{contact.normal_force, damping_ * contact.normal_damping * contact.lever,
+    const double damper = contact::rocking_damper(contact.normal_damping, damping_, contact.mass,
+                                                  spheres_->shape().longest_arm(), lmp_->update->dt);
+    const contact::ContactLoad load{contact.normal_force, damper * contact.lever,
                                     contact.normal.cross(contact.angular_velocity)};
     return contact.lever *
            contact::turned_moment(spheres_->shape(), {q[0], q[1], q[2], q[3]}, -contact.normal, depth, load)
@@ -44,6 +51,7 @@ class EccentricWallRolling : public WallRolling {
 
  private:
   double damping_ = 1; ///< of rocking, over that of the contact's normal damper
+  LAMMPS_NS::LAMMPS* lmp_ = nullptr;
   FixSphereOrientation* spheres_ = nullptr;
 };
 

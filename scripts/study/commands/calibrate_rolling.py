@@ -8,7 +8,7 @@ from .. import calibration, charts, dry, level_study, levels, measures, options,
 from ..programs import Failure
 
 SCENES = (*dry.SCENES, "mine")
-RANGES = {"mu_shape": (0.0, 0.9), "mu_s": (0.05, 1.5), "rockingDamping": (0.0, 40.0)}
+RANGES = {"mu_shape": (0.0, 0.9), "mu_s": (0.05, 1.5), "rockingDamping": (0.0, 15.0)}
 START = 0.3  # part of the range where the third point is set: most of the change is at small coefficients
 FINEST = 0.01  # an interval below is not divided
 MOST_POINTS = 8  # of one search
@@ -105,7 +105,7 @@ def parse():
                         "of a sphere with rolling_friction eccentric (default: mu_shape)")
     parser.add_argument("--mu-shape", type=float, default=0.0, help="rolling friction while mu_s is fitted (default: 0)")
     parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"),
-                        help="of the coefficient (default: 0 0.9; of mu_s 0.05 1.5; of rockingDamping 0 40)")
+                        help="of the coefficient (default: 0 0.9; of mu_s 0.05 1.5; of rockingDamping 0 15)")
     parser.add_argument("--seeds", type=options.at_least_one, default=4, help=f"runs of each point, 2 to {len(dry.SEEDS)} (default: 4)")
 
     def check(words):

@@ -16,7 +16,7 @@ TORSION_OFF = "torsionTorque off"
 ALL_SEEDS = 8
 # Coefficients of eq (19) at each contact of a cluster: what hysteresis adds to shape.
 HYSTERESIS = (0.05, 0.1, 0.2, 0.3)
-DAMPINGS = (3, 10, 30)  # of rockingDamping
+DAMPINGS = (3, 10)  # of rockingDamping
 
 
 class Model:
