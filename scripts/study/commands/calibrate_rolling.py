@@ -12,7 +12,7 @@ RANGES = {"mu_shape": (0.0, 0.9), "mu_s": (0.05, 1.5), "rockingDamping": (0.0, 1
 START = 0.3  # part of the range where the third point is set: most of the change is at small coefficients
 FINEST = 0.01  # an interval below is not divided
 MOST_POINTS = 8  # of one search
-WORDS = {"mu_shape": "rolling friction mu_shape", "mu_s": "sliding friction mu_s", "rockingDamping": "rockingDamping of rolling_friction eccentric"}
+WORDS = {"mu_shape": "rolling friction mu_shape", "mu_s": "sliding friction mu_s", "rockingDamping": "damping (rockingDamping) of rolling_friction eccentric"}
 
 
 class Place:
@@ -152,7 +152,7 @@ def main():
         return 0
     if not found and not any(place.failures for place in places.values()):
         raise Failure("no scene has all of its runs: leave out --show")
-    rows, cells, page = [], [], [f"## {WORDS[words.vary].capitalize()} of a sphere that stands for {shape_levels.name_of(truth.shape)}\n"]
+    rows, cells, page = [], [], [f"## {WORDS[words.vary][0].upper()}{WORDS[words.vary][1:]} of a sphere that stands for {shape_levels.name_of(truth.shape)}\n"]
     for name, (best, points) in found.items():
         row = [places[name].what, best.words()]
         for other, place in places.items():
