@@ -58,7 +58,7 @@ class Value:
         if self.bound:
             text = f"> {100 * self.value:.0f} %" + (", no higher filling run" if self.partial else "")
         else:
-            text = f"{100 * self.value:.2g} +- {100 * self.error:.1g} %"
+            text = f"{100 * self.value:.3g} +- {100 * self.error:.1g} %"
         return text + (" (slides back)" if self.slides else "")
 
 

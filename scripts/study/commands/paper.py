@@ -19,10 +19,10 @@ SIZES = {
     "quick": (ladders.Size(rungs=RUNGS, length=0.08, cells="8 32 6", seconds=1.4, seeds=1),
               figures.Plan(inclinations=(0, 80), velocities=(1.165,), shape_velocities=(1.165,), coarse_velocities=(),
                            friction_velocities=(1.165,), rpms=(50, 100), friction_inclinations=(0, 80), estimates=("largest",))),
-    "standard": (ladders.Size(rungs=RUNGS, length=0.08, cells="8 32 6", seconds=1.4, seeds=1),
+    "standard": (ladders.Size(rungs=RUNGS, length=0.08, cells="8 32 6", seconds=1.4, seeds=1, refine=2),
                  figures.Plan(inclinations=(0, 40, 80), velocities=SPEEDS, shape_velocities=SPEEDS, coarse_velocities=(1.165,),
                               friction_velocities=(1.165,), rpms=(0, 50, 100), friction_inclinations=(0, 40, 80), estimates=MU)),
-    "full": (ladders.Size(rungs=(0.01, 0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4), length=0.6, cells="8 32 40", seconds=5.0, seeds=3),
+    "full": (ladders.Size(rungs=(0.01, 0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4), length=0.6, cells="8 32 40", seconds=5.0, seeds=3, refine=3),
              figures.Plan(inclinations=(0, 20, 40, 60, 80), velocities=SPEEDS, shape_velocities=SPEEDS, coarse_velocities=SPEEDS,
                           friction_velocities=SPEEDS, rpms=(0, 25, 50, 100), friction_inclinations=(0, 20, 40, 60, 80), estimates=MU)),
 }
@@ -86,7 +86,7 @@ def main():
     parser.add_argument("--seeds", type=int, metavar="N", help=f"runs of each filling, 1 to {len(section.SEEDS)} (default 1; --full 3)")
     parser.add_argument("--length", type=float, metavar="M", help=f"of the section [m], {SHORTEST:g} to {LONGEST:g} (default 0.08; --full 0.6)")
     parser.add_argument("--refine", type=int, metavar="N", help=f"further fillings, 0 to {MOST_REFINED}, between the two that enclose the injected flux, until "
-                        f"they are {100 * ladders.NARROW:g} % apart (default 0)")
+                        f"they are {100 * ladders.NARROW:g} % apart (default 2; --quick 0, --full 3)")
     parser.add_argument("--rungs", nargs="+", type=float, metavar="SHARE", help="fillings of the ladder, rising, such as 0.02 0.15 0.35")
 
     def check(words):
@@ -113,7 +113,7 @@ def main():
     if words.length:
         across, around, along = size.cells.split()
         size = dataclasses.replace(size, length=words.length, cells=f"{across} {around} {max(3, round(int(along) * words.length / size.length))}")
-    size = dataclasses.replace(size, seeds=words.seeds or size.seeds, refine=words.refine or size.refine)
+    size = dataclasses.replace(size, seeds=words.seeds or size.seeds, refine=size.refine if words.refine is None else words.refine)
     if words.turbulence:
         size = dataclasses.replace(size, turbulence=words.turbulence)
 
