@@ -420,7 +420,8 @@ class Levels(unittest.TestCase):
     def test_a_row_says_which_level_to_take(self):
         row = lambda name, kind, value, cpu: level_study.Row(levels.Level(name, kind), value, 0.01, 3, cpu, cpu, {}, 1e-5, {})
         group = level_study.Group("scene", "cube", "slope", "degrees", [row("S1", "sphere", 5.0, 0.5), row("C8", "cluster", 12.0, 1.0),
-                                                                        row("C27", "cluster", 10.2, 2.0), row("smooth 0.15", "smooth", 10.0, 8.0)], True)
+                                                                        row("C27", "cluster", 10.2, 2.0), row("C64", "cluster", 10.1, 4.0),
+                                                                        row("smooth 0.15", "smooth", 10.0, 8.0)], True)
         group.compare()
         table = choice.page_of([group])[1].splitlines()
         self.assertEqual(table[2].split(" | ")[1:8], ["10.0 +- 0.010 degrees", "8.00", "C27", "+2.0 +- 0.1", "4.0", "-50", "0.062"])

@@ -4,16 +4,22 @@
 #include "styles/rolling/fix_sphere_orientation.h"
 
 #include "base/refusal.h"
+#include "contact/rocking_damper.h"
 #include "shape/shape_keywords.h"
 #include "styles/entry/printed_notes.h"
 #include "styles/entry/style_registry.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "error.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "update.h"
 
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <algorithm>
 #include <cstdint>
 #include <random>
 #include <stdexcept>
@@ -118,6 +124,28 @@ void FixSphereOrientation::post_integrate() {
     q[2] = turned.y();
     q[3] = turned.z();
   }
+}
+
+double FixSphereOrientation::damper(double normal_damping, double factor, double mass) {
+  const double acting = contact::rocking_damper(normal_damping, factor, mass, shape_->longest_arm(), update->dt);
+  if (acting < factor * normal_damping)
+    least_factor_ = std::min(least_factor_, acting / normal_damping);
+  return acting;
+}
+
+void FixSphereOrientation::post_run() {
+  double least = least_factor_;
+  MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, world);
+  if (!(least < said_factor_))
+    return;
+  said_factor_ = least;
+  if (comm->me == 0)
+    error->warning(FLERR,
+                   fmt::format("rolling_friction eccentric: the time step bears no stronger rockingDamping than a "
+                               "factor of {:.3g}, which acted instead of the larger one; expected a smaller "
+                               "factor or a shorter timestep",
+                               least)
+                       .c_str());
 }
 
 void FixSphereOrientation::orient_new_spheres() {

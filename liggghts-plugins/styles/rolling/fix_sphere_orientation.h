@@ -13,6 +13,7 @@
 #include "fix.h"
 #include "fix_property_atom.h"
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,6 +35,9 @@ class FixSphereOrientation : public LAMMPS_NS::Fix {
   /// Orientation (w x y z, body to world) of an atom of this rank, valid from pre_force on.
   const double* orientation(int i) const { return property_->array_atom[i]; }
   const contact::SupportTable& shape() const { return *shape_; }
+  /// Damper [N s/m] of rocking at a contact (contact/rocking_damper.h) of a sphere of this mass [kg]: `factor` times
+  /// that of the normal force [N s/m], as far as the step bears it. The end of the run says where it bore less.
+  double damper(double normal_damping, double factor, double mass);
 
   int setmask() override;
   /// Stops with a sentence where no model has made this fix.
@@ -41,6 +45,7 @@ class FixSphereOrientation : public LAMMPS_NS::Fix {
   void setup_pre_force(int vflag) override;
   void post_integrate() override;
   void pre_force(int vflag) override;
+  void post_run() override;
 
  private:
   void orient_new_spheres();
@@ -49,6 +54,8 @@ class FixSphereOrientation : public LAMMPS_NS::Fix {
   std::unique_ptr<contact::SupportTable> shape_;
   LAMMPS_NS::FixPropertyAtom* property_ = nullptr;
   long seed_ = 0;
+  double least_factor_ = std::numeric_limits<double>::infinity(); ///< that a bounded damper had on this rank
+  double said_factor_ = least_factor_;
 };
 
 } // namespace eccentra::styles

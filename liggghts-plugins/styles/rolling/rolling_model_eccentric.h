@@ -10,7 +10,6 @@ ROLLING_MODEL(ROLLING_ECCENTRIC, eccentric, 21)
 #include "contact_models.h"
 
 #include "contact/eccentric_batch.h"
-#include "contact/rocking_damper.h"
 #include "styles/rolling/contact_keywords.h"
 #include "styles/rolling/fix_sphere_orientation.h"
 #include "styles/rolling/wall_spin.h"
@@ -21,7 +20,6 @@ ROLLING_MODEL(ROLLING_ECCENTRIC, eccentric, 21)
 #include "error.h"
 #include "force.h"
 #include "pair_gran.h"
-#include "update.h"
 
 namespace LIGGGHTS {
 namespace ContactModels {
@@ -126,8 +124,7 @@ template <> class RollingModel<ROLLING_ECCENTRIC> : public RollingModelBase {
 
   /// That of the normal velocities of the sub-spheres of a particle [N s/m].
   double damper(const SurfacesIntersectData& contact, int particle) const {
-    return eccentra::contact::rocking_damper(contact.gamman, damping_, particle == contact.i ? contact.mi : contact.mj,
-                                             spheres_->shape().longest_arm(), update->dt);
+    return spheres_->damper(contact.gamman, damping_, particle == contact.i ? contact.mi : contact.mj);
   }
 
   void evaluate() {

@@ -2,12 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // rolling_friction eccentric at our walls: eq (32) with the shape that pair_style gives the spheres.
 #include "base/option_reader.h"
-#include "contact/rocking_damper.h"
 #include "styles/rolling/fix_sphere_orientation.h"
 #include "styles/rolling/wall_rolling.h"
-
-#include "lammps.h"
-#include "update.h"
 
 #include <stdexcept>
 
@@ -28,7 +24,6 @@ class EccentricWallRolling : public WallRolling {
   }
 
   void init(LAMMPS_NS::LAMMPS* lmp) override {
-    lmp_ = lmp;
     spheres_ = FixSphereOrientation::find(lmp);
     if (!spheres_)
       throw std::invalid_argument("rolling_friction eccentric takes the shape from pair_style: give pair_style gran "
@@ -40,8 +35,7 @@ class EccentricWallRolling : public WallRolling {
   Eigen::Vector3d torque(const WallRollingContact& contact) override {
     const double* const q = spheres_->orientation(contact.atom);
     const double depth = contact.elastic_normal / (contact.stiffness * contact.lever);
-    const double damper = contact::rocking_damper(contact.normal_damping, damping_, contact.mass,
-                                                  spheres_->shape().longest_arm(), lmp_->update->dt);
+    const double damper = spheres_->damper(contact.normal_damping, damping_, contact.mass);
     const contact::ContactLoad load{contact.normal_force, damper * contact.lever,
                                     contact.normal.cross(contact.angular_velocity)};
     return contact.lever *
@@ -51,7 +45,6 @@ class EccentricWallRolling : public WallRolling {
 
  private:
   double damping_ = 1; ///< of rocking, over that of the contact's normal damper
-  LAMMPS_NS::LAMMPS* lmp_ = nullptr;
   FixSphereOrientation* spheres_ = nullptr;
 };
 

@@ -347,6 +347,23 @@ TEST_P(Box, ComesToRest) {
   EXPECT_LT(fastest(), speed);
 }
 
+// A factor that the step does not bear is not taken in silence.
+TEST(Eccentric, ARunSaysWhereItsStepBearsNoSuchFactor) {
+  const auto folder = fresh_folder("factor");
+  for (const auto& [words, weaker] : {std::pair{"rockingDamping 2", false}, {"rockingDamping 400", true}}) {
+    RollingScene scene = eccentric_scene(words);
+    scene.timestep = 2e-5;
+    write_file(folder / "in.factor", rolling_scene(scene) + floor_line(words) + sphere_at({0, 0, kRadius - 1e-6}) +
+                                         spheres_done() + "run 10\n");
+    ProgramOptions options;
+    options.directory = folder;
+    const ProgramResult result = run_program(
+        {required_environment("ECCENTRA_BIN") + "/eccentra-dem", "-in", "in.factor", "-log", "none"}, options);
+    EXPECT_EQ(result.status, 0) << result.output;
+    EXPECT_EQ(result.output.find("bears no stronger rockingDamping") != std::string::npos, weaker) << result.output;
+  }
+}
+
 // Two spheres in an impact: linear momentum stays to round-off. Angular momentum and energy do not: eq (32) has no
 // partner torque and no share in the overlap. The page of the model gives these figures.
 TEST(Eccentric, ImpactKeepsLinearMomentumOnly) {
