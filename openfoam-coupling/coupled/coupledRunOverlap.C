@@ -32,7 +32,7 @@ void coupledRun::advance() {
   const bool due = takeSteps(left, before, overlap_.after, *overlap_.applied);
   overlap_.fields = {};
   overlap_.applied->complete(flow_->alpha(), time_.deltaTValue() / interval_, overlap_.fields);
-  overlap_.seconds = watch.lap();
+  overlap_.cost = watch.lap();
   if (report_ ? report_->due() : true)
     flow_->momentumResidual();
   if (due)
@@ -63,9 +63,9 @@ void coupledRun::exchangeAhead(const link::CouplingStep& couplingStep, const lin
   const bool news = requests_.changes(couplingStep);
   follow(couplingStep);
   stopwatch watch;
-  PartSeconds seconds(couplingStep);
-  seconds.fluid = overlap_.seconds;
-  seconds.together = std::max(seconds.dem.wall, seconds.fluid.wall);
+  CostByPart cost(couplingStep);
+  cost.fluid = overlap_.cost;
+  cost.together = std::max(cost.dem.wall, cost.fluid.wall);
 
   exchange::FlowFields fields = overlap_.fields;
   // Quantities that nobody asked for while the flow advanced are those of its end.
@@ -92,10 +92,10 @@ void coupledRun::exchangeAhead(const link::CouplingStep& couplingStep, const lin
   exchange_->sample(fields, particles, samples);
   if (couplingStep.elapsed > 0)
     returnDifference(assumedSolid, fields);
-  seconds.exchange = watch.lap();
+  cost.exchange = watch.lap();
   const vector onItsWay(interval_ * flow_->rho() *
                         gSum(vectorField(mesh_.V() * flow_->particleForce().primitiveField())));
-  report_->add(*flow_, *exchange_, couplingStep, particles, seconds, onItsWay);
+  report_->add(*flow_, *exchange_, couplingStep, particles, cost, onItsWay);
 }
 
 } // namespace eccentra

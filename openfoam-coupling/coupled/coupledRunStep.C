@@ -209,7 +209,7 @@ void coupledRun::exchangeInTurn(const link::CouplingStep& couplingStep, const li
     begin(couplingStep, particles);
   follow(couplingStep);
   stopwatch watch;
-  PartSeconds seconds(couplingStep);
+  CostByPart cost(couplingStep);
   const bool advances = couplingStep.elapsed > 0;
   const scalar left = advances ? timeStep_.partOf(interval_, flow_->CourantNo()) : 0;
   if (advances)
@@ -222,11 +222,11 @@ void coupledRun::exchangeInTurn(const link::CouplingStep& couplingStep, const li
   setFraction(before, after, 1 - left / interval_);
   if (start)
     flow_->resetFractionHistory();
-  seconds.exchange = watch.lap();
+  cost.exchange = watch.lap();
 
   appliedForces applied(*flow_, requests_.asked());
   const bool due = advances && takeSteps(left, before, after, applied);
-  seconds.fluid = watch.lap();
+  cost.fluid = watch.lap();
   checkFinite(couplingStep);
 
   exchange::FlowFields fields;
@@ -237,8 +237,8 @@ void coupledRun::exchangeInTurn(const link::CouplingStep& couplingStep, const li
   exchange_->sample(fields, particles, samples);
   if (advances)
     flow_->takeBack(exchange_->untold() * (interval_ / (time_.deltaTValue() * flow_->rho())));
-  seconds.exchange += watch.lap();
-  report_->add(*flow_, *exchange_, couplingStep, particles, seconds, Zero);
+  cost.exchange += watch.lap();
+  report_->add(*flow_, *exchange_, couplingStep, particles, cost, Zero);
   if (due)
     writer_.writeNow();
 }

@@ -81,12 +81,13 @@ struct SlipReynolds {
 
 } // namespace
 
-PartSeconds::PartSeconds(const link::CouplingStep& couplingStep) {
-  dem = {couplingStep.dem_seconds, couplingStep.dem_seconds - couplingStep.load.mean_seconds};
+CostByPart::CostByPart(const link::CouplingStep& couplingStep) {
+  dem = {couplingStep.dem_seconds, couplingStep.load.between};
+  dem.between.waited = couplingStep.dem_seconds - couplingStep.load.mean_seconds;
   link.wall = couplingStep.pack_seconds;
 }
 
-PartSeconds& PartSeconds::operator+=(const PartSeconds& more) {
+CostByPart& CostByPart::operator+=(const CostByPart& more) {
   dem += more.dem;
   fluid += more.fluid;
   exchange += more.exchange;
@@ -204,12 +205,12 @@ couplingReport::Bed couplingReport::bed(const volScalarField& alpha) const {
 
 void couplingReport::add(averagedFlow& flow, const exchange::particleExchange& exchange,
                          const link::CouplingStep& couplingStep, const link::ParticleArrays& particles,
-                         const PartSeconds& seconds, const vector& onItsWay) {
-  total_ += seconds;
+                         const CostByPart& cost, const vector& onItsWay) {
+  total_ += cost;
   // Crossing between ranks is the link's work, wherever it is done.
   const exchange::particlePoints::Traffic& traffic = exchange.present().traffic();
-  const Seconds crossing{traffic.seconds - traffic_.seconds, traffic.waited - traffic_.waited};
-  total_.exchange += {-crossing.wall, -crossing.waited};
+  const Cost crossing = traffic.cost - traffic_.cost;
+  total_.exchange += Cost{} - crossing;
   total_.link += crossing;
   traffic_ = traffic;
   ++couplingStepsHere_;
@@ -305,8 +306,8 @@ void couplingReport::warn(averagedFlow& flow, const ReynoldsNumbers& Reynolds) {
 void couplingReport::finish(averagedFlow& flow) const {
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   const auto mean = [](double part) { return returnReduce(part, sumOp<scalar>()) / Pstream::nProcs(); };
-  const auto line = [&](const char* name, const Seconds& part) {
-    const double wall = mean(part.wall), waited = mean(part.waited);
+  const auto line = [&](const char* name, const Cost& part) {
+    const double wall = mean(part.wall), waited = mean(part.between.waited);
     if (Pstream::master())
       std::printf("  %-10s %9.2f s %5.1f %%   of these waiting for other ranks %5.1f %%\n", name, wall,
                   100 * wall / elapsed, wall > 0 ? 100 * waited / wall : 0.0);
@@ -325,6 +326,7 @@ void couplingReport::finish(averagedFlow& flow) const {
     std::printf("  %-10s %9.2f s %5.1f %%\n", "rest", rest, 100 * rest / elapsed);
   }
   printLoad();
+  printSent();
   printLink(link, dem, fluid);
   const std::string turbulence = turbulenceSummary(flow);
   if (Pstream::master())
@@ -337,6 +339,25 @@ void couplingReport::finish(averagedFlow& flow) const {
     throw link::Refusal("the last " + std::to_string(pending) + " rows of coupling.csv found no room on the disk" +
                         (table_ ? " (" + table_->problem() + ")" : "") +
                         ": make room and go on from the last checkpoint with -resume");
+}
+
+// What another network would cost follows from numbers that do not depend on this machine.
+void couplingReport::printSent() const {
+  std::ostringstream line;
+  line.precision(4);
+  const auto part = [&](const char* name, const Cost& cost) {
+    const std::array<double, 3> counts{cost.between.messages, cost.between.bytes, cost.between.operations};
+    line << name;
+    for (std::size_t k = 0; k < counts.size(); ++k)
+      line << returnReduce(counts[k], sumOp<scalar>()) / Pstream::nProcs() / couplingStepsHere_ * (k == 1 ? 1e-3 : 1)
+           << std::array{" messages, ", " kB, ", " operations of all ranks"}[k];
+  };
+  part("DEM ", total_.dem);
+  part("; fluid ", total_.fluid);
+  part("; exchange ", total_.exchange);
+  part("; link ", total_.link);
+  if (Pstream::master() && Pstream::nProcs() > 1)
+    std::printf("sent by a rank in a coupling step, mean: %s\n", line.str().c_str());
 }
 
 // The link beside what it links: a step of either side.
@@ -362,8 +383,8 @@ void couplingReport::printLoad() const {
     return sum > 0 ? returnReduce(mine, maxOp<scalar>()) * Pstream::nProcs() / sum : 1.0;
   };
   const double cells = uneven(mesh_.nCells()), points = uneven(points_);
-  const double fluid = uneven(total_.fluid.wall - total_.fluid.waited);
-  const double exchange = uneven(total_.exchange.wall - total_.exchange.waited);
+  const double fluid = uneven(total_.fluid.wall - total_.fluid.between.waited);
+  const double exchange = uneven(total_.exchange.wall - total_.exchange.between.waited);
   if (!Pstream::master())
     return;
   std::printf("%s", demLoad_.table().c_str());

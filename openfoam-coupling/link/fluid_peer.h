@@ -3,6 +3,7 @@
 // The fluid as the DEM side sees it, whatever carries the data. No LIGGGHTS types, no OpenFOAM types.
 #pragma once
 
+#include "link/communication.h"
 #include "link/flow_quantities.h"
 #include "link/terms.h"
 #include "link/walls.h"
@@ -57,6 +58,7 @@ struct DemLoad {
   std::int64_t max_particles = 0; ///< of any rank
   double mean_seconds = 0;        ///< that a rank computed, without waiting for others; mean over the ranks [s]
   double max_seconds = 0;         ///< of any rank [s]
+  Communication between;          ///< mean over the ranks
 };
 
 /// One coupling step.

@@ -10,7 +10,7 @@
 namespace eccentra::link {
 
 /// Raised whenever the layout or the meaning of anything that crosses the link changes.
-constexpr std::uint32_t kProtocolVersion = 6;
+constexpr std::uint32_t kProtocolVersion = 7;
 
 /// A box aligned with the axes [m] and the directions in which it repeats.
 struct Extents {

@@ -29,7 +29,7 @@ file(WRITE "${PROJECT_BINARY_DIR}/generated/eccentra/overrides" "# The project h
 eccentra: bogus-mail-host Maintainer *
 eccentra: bogus-mail-host-in-debian-changelog *
 # The library calls functions of MPI alone.
-eccentra: library-not-linked-against-libc [usr/lib/libeccentra_mpi_clock.so]
+eccentra: library-not-linked-against-libc [usr/lib/libeccentra_mpi_counters.so]
 ")
 file(WRITE "${PROJECT_BINARY_DIR}/generated/eccentra-dev/overrides" "# The project has no mail address.
 eccentra-dev: bogus-mail-host Maintainer *

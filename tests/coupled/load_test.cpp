@@ -34,6 +34,13 @@ BoxCase heaped(const std::string& link, bool balanced) {
   return box;
 }
 
+/// What a rank of DEM sends in a coupling step; -1 if the run has not said so.
+double messages_of_dem(const std::string& text) {
+  const std::string words = "sent by a rank in a coupling step, mean: DEM ";
+  const auto at = text.find(words);
+  return at == std::string::npos ? -1 : std::atof(text.c_str() + at + words.size());
+}
+
 /// The number after `arguments` in what the run has printed about its load.
 double reported(const std::string& text, const std::string& arguments) {
   const auto line = text.find("rank(s) of DEM in ");
@@ -58,6 +65,11 @@ TEST(Load, BalancingKeepsWorkingInCoupledRunsAndIsReported) {
   // Seconds depend on what else the machine does: the busiest over the mean is there, and at least 1.
   EXPECT_GE(reported(uneven.text, "computing "), 1.0) << uneven.text;
   EXPECT_NE(uneven.text.find("cells 1.000"), std::string::npos) << uneven.text;
+  // One neighbour: positions go there in each step and forces come back, or all of both at once where neighbours are
+  // listed anew; 16 of 17 coupling steps end an interval.
+  const double messages = messages_of_dem(uneven.text);
+  EXPECT_GT(messages, kSteps / 17.0) << uneven.text;
+  EXPECT_LT(messages, 20 * kStepsPerCouplingStep) << uneven.text;
   const std::vector<double> reference = numbers_in(uneven.folder + "/end.bodies");
 
   const Outcome even = run(heaped("solver every 40", true), "even", 2);
@@ -79,5 +91,6 @@ TEST(Load, BalancingKeepsWorkingInCoupledRunsAndIsReported) {
   // Both sides tell.
   for (const std::string& text : {fluid.text, particles.text()})
     EXPECT_LT(std::abs(reported(text, "particles ") - reported(even.text, "particles ")), 0.05) << text;
+  EXPECT_NEAR(messages_of_dem(fluid.text), messages_of_dem(even.text), 0.1 * messages_of_dem(even.text)) << fluid.text;
   expect_same(numbers_in(folder / "end.bodies"), reference);
 }

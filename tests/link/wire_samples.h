@@ -48,7 +48,7 @@ inline link::CouplingStep some_coupling_step() {
   coupling_step.totals.particles = kRows;
   coupling_step.totals.volume_velocity[2] = 3.25;
   coupling_step.totals.fastest = 0.75;
-  coupling_step.load = {4, 2, 0.25, 0.5};
+  coupling_step.load = {4, 2, 0.25, 0.5, {0.125, 640, 3, 1536}};
   return coupling_step;
 }
 

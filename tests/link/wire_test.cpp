@@ -114,6 +114,10 @@ TEST(Wire, CouplingStepArrivesAsSent) {
     EXPECT_EQ(coupling_step.load.max_particles, 2);
     EXPECT_EQ(coupling_step.load.mean_seconds, 0.25);
     EXPECT_EQ(coupling_step.load.max_seconds, 0.5);
+    EXPECT_EQ(coupling_step.load.between.waited, 0.125);
+    EXPECT_EQ(coupling_step.load.between.messages, 640);
+    EXPECT_EQ(coupling_step.load.between.operations, 3);
+    EXPECT_EQ(coupling_step.load.between.bytes, 1536);
     wire::ParticlePoints particles_here;
     particles_here.load({rows}, extents, kAsked);
     const ParticleArrays got = particles_here.particles();

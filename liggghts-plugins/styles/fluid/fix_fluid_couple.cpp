@@ -5,8 +5,8 @@
 
 #include "base/option_reader.h"
 #include "base/refusal.h"
+#include "link/communication.h"
 #include "link/stop_signal.h"
-#include "link/waiting.h"
 #include "styles/entry/fix_checkpoint.h"
 #include "styles/entry/script_replay.h"
 #include "styles/entry/style_registry.h"
@@ -275,7 +275,7 @@ void FixFluidCouple::announce_rank_connections() const {
 
 void FixFluidCouple::leave_fluid() {
   left_fluid_at_ = MPI_Wtime();
-  waited_before_ = link::waiting_seconds();
+  counted_before_ = link::communication();
 }
 
 void FixFluidCouple::pre_initial_integrate() {
@@ -380,7 +380,8 @@ void FixFluidCouple::pack_extent(int i, double* extent) {
   }
 }
 
-void FixFluidCouple::add_totals(double computed, link::CouplingStep& coupling_step) const {
+void FixFluidCouple::add_totals(double computed, const link::Communication& between,
+                                link::CouplingStep& coupling_step) const {
   link::DemTotals& sums = coupling_step.totals;
   const link::FluidReaction reaction = forces_->reaction();
   enum {
@@ -392,11 +393,19 @@ void FixFluidCouple::add_totals(double computed, link::CouplingStep& coupling_st
     kVelocitySum = kPosition + 3,
     kParticles = kVelocitySum + 3,
     kComputed,
+    kWaited,
+    kMessages,
+    kOperations,
+    kBytes,
     kCount
   };
   double mine[kCount] = {};
   mine[kParticles] = atom->nlocal;
   mine[kComputed] = computed;
+  mine[kWaited] = between.waited;
+  mine[kMessages] = between.messages;
+  mine[kOperations] = between.operations;
+  mine[kBytes] = between.bytes;
   enum { kFastest, kMostParticles, kMostComputed, kMaxima };
   double most[kMaxima] = {0, double(atom->nlocal), computed};
   double& fastest = most[kFastest];
@@ -421,6 +430,8 @@ void FixFluidCouple::add_totals(double computed, link::CouplingStep& coupling_st
   coupling_step.load.max_particles = std::llround(most[kMostParticles]);
   coupling_step.load.mean_seconds = all[kComputed] / comm->nprocs;
   coupling_step.load.max_seconds = most[kMostComputed];
+  const auto mean = [&](int k) { return all[k] / comm->nprocs; };
+  coupling_step.load.between = {mean(kWaited), mean(kMessages), mean(kOperations), mean(kBytes)};
   sums.particles = std::llround(all[kParticles]);
   for (int i = 0; i < modify->nfix; ++i) {
     Fix* const fix = modify->fix[i];
@@ -439,8 +450,8 @@ void FixFluidCouple::add_totals(double computed, link::CouplingStep& coupling_st
 
 void FixFluidCouple::couple(double elapsed) {
   const double arrived = MPI_Wtime();
-  const double waited = link::waiting_seconds() - waited_before_;
-  const double computed = elapsed > 0 ? std::max(0.0, arrived - left_fluid_at_ - waited) : 0.0;
+  const link::Communication between = link::communication() - counted_before_;
+  const double computed = elapsed > 0 ? std::max(0.0, arrived - left_fluid_at_ - between.waited) : 0.0;
   link::CouplingStep coupling_step;
   coupling_step.needed = forces_->needs();
   coupling_step.elapsed = elapsed;
@@ -449,7 +460,7 @@ void FixFluidCouple::couple(double elapsed) {
   coupling_step.steps_done = update->ntimestep - update->firststep;
   coupling_step.steps_total = update->laststep - update->firststep;
   pack();
-  add_totals(computed, coupling_step);
+  add_totals(computed, between, coupling_step);
   load_.add(coupling_step);
   const link::FluidReaction reaction = forces_->reaction();
   link::ParticleArrays particles;

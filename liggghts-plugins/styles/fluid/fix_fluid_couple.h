@@ -88,7 +88,7 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   void pack();
   void pack_extent(int i, double* extent);
   /// `computed`: seconds of this rank since the last coupling step, without waiting.
-  void add_totals(double computed, link::CouplingStep& coupling_step) const;
+  void add_totals(double computed, const link::Communication& between, link::CouplingStep& coupling_step) const;
   void begin_interval();
   void leave_fluid();
 
@@ -126,9 +126,9 @@ class FixFluidCouple : public LAMMPS_NS::Fix {
   link::wire::Bytes compared_walls_;
   bool walls_move_ = false; ///< and their velocities are still to be compared
   std::unique_ptr<LastWords> last_words_;
-  double left_fluid_at_ = 0; ///< wall-clock time when the last coupling step ended [s]
-  double waited_before_ = 0; ///< link::waiting_seconds() at that time
-  link::LoadSums load_;      ///< of the present run
+  double left_fluid_at_ = 0;           ///< wall-clock time when the last coupling step ended [s]
+  link::Communication counted_before_; ///< link::communication() at that time
+  link::LoadSums load_;                ///< of the present run
   double pack_seconds_ = 0;
 };
 

@@ -37,7 +37,7 @@ constexpr Kind kLastKind = Kind::walls_compared;
 /// Bytes before the body of every message.
 constexpr std::size_t kHeaderBytes = 32;
 /// Bytes between the header and the rows of a coupling step.
-constexpr std::size_t kCouplingStepBytes = 240;
+constexpr std::size_t kCouplingStepBytes = 272;
 /// Bytes between the header and the rows of the samples.
 constexpr std::size_t kSamplesBytes = 24;
 /// Bytes between the header and the rows of a rank.

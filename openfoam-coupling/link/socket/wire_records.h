@@ -93,6 +93,10 @@ template <class Way, class Record> constexpr void load_fields(Way& way, Record& 
   way.plain(load.max_particles);
   way.number(load.mean_seconds);
   way.number(load.max_seconds);
+  way.number(load.between.waited);
+  way.number(load.between.messages);
+  way.number(load.between.operations);
+  way.number(load.between.bytes);
 }
 
 /// All of a coupling step but the number and the length of its rows, which come first.

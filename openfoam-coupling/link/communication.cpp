@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One counter per process.
-#include "link/waiting.h"
+// One set of counters per process.
+#include "link/communication.h"
 
 namespace eccentra::link {
 
-double& waiting_seconds() {
-  static double seconds = 0;
-  return seconds;
+Communication& communication() {
+  static Communication counters;
+  return counters;
 }
 
 } // namespace eccentra::link
