@@ -9,6 +9,8 @@ import pathlib
 import platform
 import sys
 
+from . import page_parts
+
 
 def number(value, digits=3):
     """A number as people write it; '-' for what is not known."""
@@ -69,10 +71,16 @@ def made(script, settings):
 
 
 def finish(chosen, page, failed, *settings):
-    """Writes results.md with how it was made, says what is there and what failed; the exit status. chosen: the options."""
-    script = f"scripts/{pathlib.Path(sys.argv[0]).name}"
-    said = made(script, "; ".join([*settings[:1], chosen.store.account(), *settings[1:]]))
-    (chosen.out / "results.md").write_text("\n".join(page) + f"\n*{said}*\n")
+    """Writes results.md with how it was made, says what is there and what failed; the exit status. chosen: the options. page: lines, or
+    {part: lines} of the parts that this call makes of a page whose other parts stay."""
+    study, target = pathlib.Path(sys.argv[0]).name, chosen.out / "results.md"
+    said = made(f"scripts/{study}", "; ".join([*settings[:1], chosen.store.account(), *settings[1:]]))
+    ended = lambda lines: "\n".join(lines) + f"\n*{said}*\n"
+    if isinstance(page, dict):
+        standing = target.read_text() if target.is_file() else ""
+        target.write_text(page_parts.renewed(study, standing, page_parts.page_of(study, {part: ended(lines).strip("\n") for part, lines in page.items()})))
+    else:
+        target.write_text(ended(page))
     print(f"written to {chosen.out}: {', '.join(sorted(file.name for file in chosen.out.iterdir() if file.is_file()))}")
     for sentence in sorted(set(failed)):
         print(f"FAILED {sentence}")

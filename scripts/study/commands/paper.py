@@ -117,9 +117,9 @@ def main():
     if words.turbulence:
         size = dataclasses.replace(size, turbulence=words.turbulence)
 
-    page, failed = [], []
+    parts, failed = {}, []
     if "table1" in words.figures:
-        page += table_1(words.build, words.out)
+        parts["table1"] = table_1(words.build, words.out)
     fine = words.out / "disk80.clump"
     levels.fine_disk(fine)
     estimates = {body: levels.eccentricities(words.build, body) for body in ("cube", "disk")}
@@ -139,25 +139,26 @@ def main():
             failed += climbed.run(points)
             if words.plan:
                 continue
-            page += figure(number, series, climbed, words.out)
+            parts[f"figure {number}"] = figure(number, series, climbed, words.out)
             panels.append(figures.panel(number, series, climbed.values))
         if panels:
             charts.write(words.out / "paper.svg", "Concentration at the injected solids flux (arrow: larger than the filling shown)", panels)
-            page[:0] = ["## The paper's figures\n", "![all figures](paper.svg)\n",
-                        "The concentration is interpolated linearly between two fillings, its error is that of their fluxes alone: where the bed "
-                        "begins to move as a whole between two rungs, it says between which, no more. The flux carried at a filling tells more.\n"]
+            head = ["## The paper's figures\n", "![all figures](paper.svg)\n",
+                    "The concentration is interpolated linearly between two fillings, its error is that of their fluxes alone: where the bed "
+                    "begins to move as a whole between two rungs, it says between which, no more. The flux carried at a filling tells more.\n"]
+            parts = {"head": head, **parts}
         if "9" in words.figures:
             bad, lines = figure_9(words.store, words.build, size, critical, drawn, words.out)
             failed += bad
-            page += lines
+            parts["figure 9"] = lines
         if words.loop and not words.plan:
-            page += loop_data.compare(words.loop, climbed.values, drawn)
+            parts["measured"] = loop_data.compare(words.loop, climbed.values, drawn)
     if words.plan:
         return 0
     further = f" and up to {size.refine} between" if size.refine else ""
     settings = (f"fillings {', '.join(f'{100 * r:g} %' for r in size.rungs)}{further}, {size.length} m, cells {size.cells.replace(' ', 'x')}, "
                 f"{size.seconds} s, {size.turbulence or 'laminar'}, means over the last {100 * ladders.SHARE:.0f} % of it, {size.seeds} seed(s)")
-    return tables.finish(words, page, failed, settings)
+    return tables.finish(words, {part: lines for part, lines in parts.items() if lines}, failed, settings)
 
 
 def figure(number, series, climbed, output):

@@ -1,12 +1,13 @@
 # SPDX-FileCopyrightText: Eccentra contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Puts what the studies found into docs/results.md, with their charts: nothing on that page is written by hand. The part of a study whose results
-are not there stays as it is on the page."""
+"""Puts what the studies found into docs/results.md, with their charts: nothing on that page is written by hand. What has no
+results there, a study or one of its parts, stays as it is on the page."""
 import argparse
 import pathlib
 import re
 import shutil
 
+from .. import page_parts
 from ..programs import ROOT
 
 CENTRAL_CHART, COPY = "truth-cube.svg", "results-levels-cube.svg"  # of a study, and in docs, where the start page shows it
@@ -49,7 +50,7 @@ def main():
                 text = text.replace(f"]({name})", f"]({COPY})")
             else:  # pictures belong to the results of a run, not to the sources
                 text = text.replace(whole, f"Chart: `results/{folder.name}/{name}`.")
-        page.append(text.strip("\n") + "\n")
+        page.append(page_parts.renewed(study, standing.get(study, ""), text).strip("\n") + "\n")
     if not found:
         parser.error(f"there is no result in {words.results}: run scripts/accuracy-cost --quick first")
     target.write_text("\n".join(page))
