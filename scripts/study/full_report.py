@@ -30,6 +30,17 @@ def contact_loads(case):
     return found
 
 
+def limit_sentence(name, case):
+    """How near the DEM step came to the critical one: what fix timestep/limit has said in all calls."""
+    said = "\n".join(log.read_text(errors="replace") for log in sorted(case.glob("log.liggghts*")))
+    parts = [float(part) for part in re.findall(r"critical step \S+ s \([^)]*\); time step \S+ s is (\S+) of it", said)]
+    if not parts:
+        return f"{name}: fix timestep/limit has said nothing of the DEM step."
+    above = sum(part > 1 for part in parts)
+    return (f"{name}: the DEM step was at most {max(parts):.3g} of the critical one; of the {len(parts)} times that fix timestep/limit spoke of it, it was above "
+            f"1 in {above}. Energy begins to grow at 1.1 to 1.45.")
+
+
 def balance_of(row):
     """(injected, present, left [kg], what is missing over what was injected) of a row of coupling.csv."""
     body = row["inserted_mass"] / row["inserted"] if row["inserted"] else 0.0

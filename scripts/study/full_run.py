@@ -79,7 +79,8 @@ def options_of(chosen, level, critical):
     return {"length": chosen.length, "cells": cells_of(chosen.length), "inclination": chosen.angle, "velocity": chosen.velocity,
             "entry": chosen.velocity, "rpm": chosen.rpm, "portions": PORTIONS, "fluid_step": chosen.fluid_step, "interval": interval,
             "seconds": chosen.end, "ranks": chosen.ranks, "balance": BALANCE if chosen.ranks > 1 else 0, "bodies": 1, "snapshots": snapshots_of(chosen),
-            "report": 1 if chosen.accuracy else max(1, round(REPORT / chosen.fluid_step)), **section.level_words(level)}
+            "report": 1 if chosen.accuracy else max(1, round(REPORT / chosen.fluid_step)), **section.level_words(level),
+            **({"safety": chosen.safety} if chosen.safety else {})}
 
 
 def snapshots_of(chosen):
@@ -93,11 +94,11 @@ def solvers_of(length, tolerances):
     return SOLVERS.format(coarsest=COARSEST * int(cells_of(length).split()[2]), pressure=pressure, velocity=velocity)
 
 
-def source_of(folder, solvers):
+def source_of(folder, solvers, case=CASE):
     """A copy of the case with these solvers."""
     copy = folder / "source"
     shutil.rmtree(copy, ignore_errors=True)
-    shutil.copytree(CASE, copy)
+    shutil.copytree(case, copy)
     (copy / "system" / "fvSolution").write_text(solvers)
     return copy
 

@@ -8,8 +8,9 @@ import math
 from . import full_pictures, full_report, full_run, hole, levels, runs, section, tables
 
 LEVELS = ("S1", "C8", "C64", "D48", "smooth")
-FEWER = 200  # DEM steps in 20 ms: 0.55 of the critical step of the spheres instead of 0.3
-COMPARED = ((5e-3, "tight", None), (20e-3, "tight", None), (5e-3, "loose", None), (20e-3, "loose", None), (20e-3, "loose", FEWER))
+USUAL_ANGLE = 80.0  # [degrees]
+FEWER = {"S1": 200, "C64": 320}  # DEM steps in 20 ms of the whole runs: 0.55 and 0.49 of the critical step instead of 0.3
+COMPARED = ((5e-3, "tight"), (20e-3, "tight"), (5e-3, "loose"), (20e-3, "loose"))
 SHORT = {"length": 1.2, "end": 5.0}  # of the comparison [m, s]
 LARGEST_CHANGE = 0.02
 
@@ -30,14 +31,16 @@ def whole(text):
 def add_options(parser):
     parser.add_argument("--run", nargs="+", metavar="LEVEL", choices=LEVELS, default=(),
                         help=f"run the whole scene with these levels ({', '.join(LEVELS)}), or go on with it; the options below are of this run")
-    parser.add_argument("--accuracy", action="store_true", help="what steps of 20 ms and loose tolerances change in 1.2 m of the scene (S1)")
-    parser.add_argument("--angle", type=float, default=80.0, metavar="DEGREES", help="of the hole from the vertical (default 80)")
+    parser.add_argument("--accuracy", action="store_true", help="what steps of 20 ms and loose tolerances change in 1.2 m of the scene (--levels, default S1)")
+    parser.add_argument("--angle", type=float, default=USUAL_ANGLE, metavar="DEGREES", help="of the hole from the vertical (default 80)")
     parser.add_argument("--velocity", type=positive, default=0.58, metavar="U", help="mean velocity [m/s] (default 0.58)")
     parser.add_argument("--rpm", type=float, default=50.0, metavar="N", help="of the pipe (default 50)")
     parser.add_argument("--end", type=positive, metavar="T", help=f"[s] (default 60; with --accuracy {SHORT['end']:g})")
     parser.add_argument("--length", type=positive, metavar="L", help=f"[m] (default 12; with --accuracy {SHORT['length']:g})")
     parser.add_argument("--fluid-step", type=positive, default=full_run.FLUID_STEP, metavar="DT", help="[s] (default 0.02)")
     parser.add_argument("--interval", type=whole, metavar="N", help="DEM steps in a step of the fluid (default: 0.3 of the critical step)")
+    parser.add_argument("--safety", type=positive, metavar="S",
+                        help="part of the critical step at which fix timestep/limit ends the run (default: that of the case, 0.9)")
     parser.add_argument("--tolerances", choices=full_run.TOLERANCES, default="loose", help="of the linear solvers (default loose)")
 
 
@@ -57,36 +60,38 @@ def completed(words, **values):
     return chosen
 
 
-def run_page(words, critical):
-    """Runs the levels one after another; (page, failed)."""
-    page, failed, costs = [], [], []
+def label_of(chosen, name):
+    """Of a level's run: names its files and its part of the page."""
+    return name + (f"-{chosen.angle:g}-degrees" if chosen.angle != USUAL_ANGLE else "")
+
+
+def run_pages(words, critical):
+    """Runs the levels one after another; yields (part, page, failed) of each."""
     named = known()
     for name in words.run:
         chosen = completed(words, accuracy=False)
         one = full_run.job(chosen, named[name], critical[name])
         result = words.store.run_all("whole scene", [one])[one.key()]
-        if "failed" in result:
-            failed.append(f"{one.name}: {result['failed']}")
+        failed = [f"{one.name}: {result['failed']}"] if "failed" in result else []
         case = full_run.case_of(words.store, one)
-        if words.plan or case is None:
+        if words.plan:
             continue
-        interval = full_run.interval_of(chosen, critical[name])
-        page += level_page(words, chosen, named[name], case, interval)
-        note = full_run.read_note(words.store.folder_of(one))
-        costs.append(full_report.cost_row(name, chosen, section.rows_of(case), interval, note))
-    if costs:
-        table = [full_report.PAPER, *costs]
-        tables.write_csv(words.out / "beside-the-paper.csv", full_report.COST_HEADER, table)
-        page = ["## The whole scene, run\n", tables.markdown(full_report.COST_HEADER, table), *page]
-    return page, failed
+        label, page = label_of(chosen, name), []
+        if case is not None:
+            interval = full_run.interval_of(chosen, critical[name])
+            cost = full_report.cost_row(label, chosen, section.rows_of(case), interval, full_run.read_note(case.parent))
+            page = ["## The whole scene, run\n", tables.publish(words, f"{label}-beside-the-paper", f"{label} beside the paper:", full_report.COST_HEADER,
+                                                               [full_report.PAPER, cost]), *level_page(words, chosen, named[name], case, interval)]
+        yield f"run {label}", page, failed
 
 
 def level_page(words, chosen, level, case, interval):
     """Files and lines of one level's run, as far as it has come."""
-    name, step = level.name, chosen.fluid_step / interval
+    name, step = label_of(chosen, level.name), chosen.fluid_step / interval
     rows, pictures = section.rows_of(case), hole.history(case, step, chosen.length)
     note = full_run.read_note(case.parent)
-    page = [f"### {name}\n", *(f"{sentence}\n" for sentence in full_report.sentences(name, chosen, rows, pictures, note))]
+    page = [f"### {name}\n", *(f"{sentence}\n" for sentence in full_report.sentences(name, chosen, rows, pictures, note)),
+            f"{full_report.limit_sentence(name, case)}\n"]
     table = full_report.time_table(rows, pictures, full_report.contact_loads(case), step)
     page.append(tables.publish(words, f"{name}-time", f"{name} in time:", full_report.TIME_HEADER, table))
     if len(pictures) > 1:
@@ -101,12 +106,12 @@ def level_page(words, chosen, level, case, interval):
     return page
 
 
-def accuracy_page(words, critical):
+def accuracy_page(words, name, critical):
     """Runs a short scene with all steps and tolerances; (page, failed)."""
-    jobs = {}
-    for fluid_step, tolerances, interval in COMPARED:
+    jobs, fewer = {}, words.interval or FEWER.get(name)
+    for fluid_step, tolerances, interval in [*((*pair, None) for pair in COMPARED), *([(*COMPARED[-1], fewer)] if fewer else [])]:
         chosen = completed(words, fluid_step=fluid_step, tolerances=tolerances, interval=interval)
-        jobs[fluid_step, tolerances, interval] = full_run.job(chosen, known()["S1"], critical["S1"]), chosen
+        jobs[fluid_step, tolerances, interval] = full_run.job(chosen, known()[name], critical), chosen
     results = words.store.run_all("steps and tolerances", [one for one, _ in jobs.values()])
     if words.plan:
         return [], []
@@ -117,31 +122,31 @@ def accuracy_page(words, critical):
             failed.append(f"{one.name}: {result.get('failed', 'not run')}")
             continue
         case = full_run.case_of(words.store, one)
-        step = chosen.fluid_step / full_run.interval_of(chosen, critical["S1"])
+        step = chosen.fluid_step / full_run.interval_of(chosen, critical)
         found[key] = full_report.measures_of(case, step, chosen.length) | {"cpu": result["cpu"]}
-    reference = found.get(COMPARED[0])
+    reference = found.get((*COMPARED[0], None))
     for (fluid_step, tolerances, interval), m in found.items():
         label = f"{1e3 * fluid_step:g} ms, {tolerances}" + (f", {interval} DEM steps" if interval else "")
-        change = [f"{100 * (m[name] / reference[name] - 1):+.2f}" if reference and reference[name] else "-" for name in ("hold-up", "front", "gradient")]
+        change = [f"{100 * (m[quantity] / reference[quantity] - 1):+.2f}" if reference and reference[quantity] else "-"
+                  for quantity in ("hold-up", "front", "gradient")]
         rows.append([label, 100 * m["hold-up"], change[0], m["front"], change[1], m["gradient"], change[2], m["cpu"]])
         if reference:
-            failed += [f"{label}: {name} differs by more than {100 * LARGEST_CHANGE:g} %"
-                       for name in ("hold-up", "front", "gradient") if not abs(m[name] / reference[name] - 1) <= LARGEST_CHANGE]
+            failed += [f"{label}: {quantity} differs by more than {100 * LARGEST_CHANGE:g} %"
+                       for quantity in ("hold-up", "front", "gradient") if not abs(m[quantity] / reference[quantity] - 1) <= LARGEST_CHANGE]
     header = ["", "solid [%]", "change [%]", "front [m]", "change [%]", "pressure gradient [Pa/m]", "change [%]", "CPU [s]"]
-    title = f"Steps and tolerances, S1, {completed(words).length:g} m, {completed(words).end:g} s, last fifth:"
-    return ["## Steps and tolerances\n", tables.publish(words, "accuracy", title, header, rows)], failed
+    title = f"Steps and tolerances, {name}, {completed(words).length:g} m, {completed(words).end:g} s, last fifth:"
+    return ["## Steps and tolerances\n", tables.publish(words, f"accuracy-{name}", title, header, rows)], failed
 
 
 def main(words):
     """The study of --run and --accuracy; the exit status."""
     named = known()
-    chosen = ["S1"] if words.accuracy and not words.run else list(words.run)
-    steps = {name: levels.step_job(words.build, named[name], 0.9) for name in dict.fromkeys([*chosen, *(["S1"] if words.accuracy else [])])}
+    compared = (words.levels or ["S1"]) if words.accuracy else []
+    steps = {name: levels.step_job(words.build, named[name], 0.9) for name in dict.fromkeys([*words.run, *compared])}
     critical = {name: result["critical"] for name, result in runs.needed(words.store.run_all("time steps", steps.values()), steps).items()}
-    page, failed = run_page(words, critical) if words.run else ([], [])
-    if words.accuracy:
-        more, worse = accuracy_page(words, critical)
-        page, failed = page + more, failed + worse
+    parts = [*run_pages(words, critical), *((f"steps {name}", *accuracy_page(words, name, critical[name])) for name in compared)]
     if words.plan:
         return 0
-    return tables.finish(words, page, failed, "wall hours are those of DEM, fluid, exchange and link; CPU days are of all processes")
+    settings = "wall hours are those of DEM, fluid, exchange and link; CPU days are of all processes"
+    failed = [sentence for _, _, sentences in parts for sentence in sentences]
+    return tables.finish(words, {part: page for part, page, _ in parts if page}, failed, settings)

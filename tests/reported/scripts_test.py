@@ -32,7 +32,7 @@ STUDIES = {
     "full-scene": (["--levels", "S1", "--fillings", "0.5"], {
         "--levels": ["S1", "C8"], "--fillings": ["0.1"], "--ranks": ["1"], "--quick": [], "--run": ["S1"], "--accuracy": [], "--angle": ["40"],
         "--velocity": ["0.72"], "--rpm": ["0"], "--end": ["30"], "--length": ["6"], "--fluid-step": ["0.01"], "--tolerances": ["tight"],
-        "--interval": ["200"]}, ()),
+        "--interval": ["200"], "--safety": ["2"]}, ()),
     "compare-rolling": (["--scenes", "slope", "section", "--models", "cluster", "cdt", "--seeds", "1"], {
         "--scenes": ["drum"], "--models": ["off"], "--seeds": ["2"], "--quick": [], "--mu": ["0.5"], "--shape": ["cube 8"], "--cost": [], "--cohesion": []},
         ()),
@@ -68,7 +68,7 @@ STARTS |= {("accuracy-cost", option): OF_A_SHAPE for option in ("--shape", "--sc
 STARTS["calibrate-rolling", "--mu-shape"] = [*STUDIES["calibrate-rolling"][0], "--vary", "mu_s"]
 STARTS["full-scene", "--quick"] = ["--levels", "S1"]
 STARTS |= {("full-scene", option): ["--run", "S1"]
-           for option in ("--angle", "--velocity", "--rpm", "--end", "--length", "--fluid-step", "--tolerances", "--interval")}
+           for option in ("--angle", "--velocity", "--rpm", "--end", "--length", "--fluid-step", "--tolerances", "--interval", "--safety")}
 STARTS["rounding", "--quick"] = []
 STARTS["compare-rolling", "--cohesion"] = ["--scenes", "heap", "--seeds", "1"]
 STARTS["oriented-section", "--yield-forms"] = [*STUDIES["oriented-section"][0], "--tau0", "1"]

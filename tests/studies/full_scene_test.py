@@ -58,7 +58,7 @@ class WholeScene(unittest.TestCase):
         from PIL import Image
         with Image.open(cut / "S1-film.png") as film:
             self.assertEqual(film.n_frames, len(list(cut.glob("runs/*/case/postProcessing/eccentra/grains_*.vtp"))))
-        for name in ("S1-hole.png", "S1-piece.png", "S1.svg", "beside-the-paper.csv"):
+        for name in ("S1-hole.png", "S1-piece.png", "S1.svg", "S1-beside-the-paper.csv"):
             self.assertGreater((cut / name).stat().st_size, 100)
 
 
