@@ -13,6 +13,7 @@
 #include "error.h"
 #include "fix.h"
 #include "lammps.h"
+#include "modify.h"
 #include "neighbor.h"
 #include "update.h"
 
@@ -99,7 +100,11 @@ class FixBalanceBodies : public Fix {
       for (int k = 0; k < 3; ++k)
         now[k] = contact::planes_towards(now[k], restarted_[k]);
       set(now);
+      make_room();
       comm->exchange();
+      // The next exchange forgets where each atom is, in an array that has room for those of the last map.
+      if (atom->map_style)
+        atom->map_set();
     }
     restarted_ = {};
   }
@@ -157,6 +162,20 @@ class FixBalanceBodies : public Fix {
       std::copy(next[k].begin(), next[k].end(), splits[k]);
     comm->uniform = 0;
     domain->set_local_box();
+  }
+
+  /// In the buffers of migration, for the largest body of this rank: who keeps records of contacts makes room for them
+  /// before each exchange of a run, but after this one. What goes into a restart file is as long, to a word.
+  void make_room() const {
+    int most = 0;
+    for (int i = 0; i < atom->nlocal; ++i) {
+      int words = 0;
+      for (int n = 0; n < modify->nfix; ++n)
+        if (modify->fix[n]->restart_peratom)
+          words += modify->fix[n]->size_restart(i);
+      most = std::max(most, words);
+    }
+    comm->maxexchange_fix = std::max(comm->maxexchange_fix, most);
   }
 
   [[noreturn]] void fail(const std::string& sentence) {

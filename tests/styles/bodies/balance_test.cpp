@@ -122,6 +122,14 @@ Outcome run(MPI_Comm ranks, bool balanced) {
   return outcome;
 }
 
+/// A restarted session, before its first run.
+void restart(LiggghtsSession& session, const std::string& file) {
+  session.script("processors * 1 1\natom_style granular\natom_modify map array\nboundary f f f\nnewton off\n"
+                 "communicate single vel yes\nunits si\nread_restart " +
+                 file + "\n" + granular_material());
+  use_clusters(session);
+}
+
 } // namespace
 
 TEST(Balance, RanksShareTheBodiesAndNoDigitChanges) {
@@ -137,10 +145,7 @@ TEST(Balance, RanksShareTheBodiesAndNoDigitChanges) {
   }
   // A restarted run begins with the planes of the file, wherever a body was read.
   LiggghtsSession session;
-  session.script("processors * 1 1\natom_style granular\natom_modify map array\nboundary f f f\nnewton off\n"
-                 "communicate single vel yes\nunits si\nread_restart balance.restart\n" +
-                 granular_material());
-  use_clusters(session);
+  restart(session, "balance.restart");
   session.script(world + balance + "timestep 1e-5\nrun 0\n");
   EXPECT_EQ(planes_of(session), together.planes_before);
   if (ranks > 1) {
@@ -148,4 +153,34 @@ TEST(Balance, RanksShareTheBodiesAndNoDigitChanges) {
   }
   session.script("run 3000\n");
   EXPECT_EQ(body_rows(session, along * across, MPI_COMM_WORLD), alone.bodies);
+}
+
+// LIGGGHTS has room for the places of as many atoms as its last map has had and a thousand: more than those pass a
+// plane in one step, before the next one.
+TEST(Balance, ManyBodiesOfARestartFileGoOverInSteps) {
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  std::vector<double> planes;
+  const std::string step = "timestep 1e-5\n";
+  {
+    LiggghtsSession session;
+    session.command("processors * 1 1");
+    open_box(session, {});
+    use_clusters(session);
+    session.script("lattice sc 0.002\nregion corner block -0.1 -0.07 -0.1 -0.07 -0.1 -0.07 units box\n"
+                   "create_atoms 1 region corner\nset group all diameter 0.0019 density 2619\n" +
+                   balance + step + "run 2000\nwrite_restart balance_many.restart\n");
+    ASSERT_GT(session.atom().natoms, 3000);
+    planes = planes_of(session);
+  }
+  if (ranks > 1) {
+    EXPECT_LT(planes[1], 0.15) << "no way of several steps";
+  }
+  LiggghtsSession session;
+  restart(session, "balance_many.restart");
+  session.script(balance + step + "run 100\n");
+  EXPECT_EQ(planes_of(session), planes);
+  EXPECT_GT(session.atom().natoms, 3000);
+  for (int i = 0; i < session.atom().nlocal; ++i)
+    ASSERT_EQ(session.atom().map(session.atom().tag[i]), i);
 }
