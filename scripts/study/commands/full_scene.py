@@ -93,8 +93,8 @@ COST_HEADER = ["level", "ranks", "bodies", "ms a fluid step", "ms exchange", "ms
 SENT_HEADER = ["level", "ranks", "bodies", "part", "messages", "kB", "operations of all ranks"]
 SCALED_HEADER = ["level", "bodies", "ranks", "hours measured", *(f"hours with {network.name}" for network in scaling.NETWORKS)]
 HEAD = """12 m, 139,968 cells, bodies poured evenly along the hole at 80 degrees, 0.58 m/s; 60 s of it. Half of the bodies is the mean over the run. Steps of
-20 ms, DEM steps of 0.3 of the critical one, solvers and tolerances of the whole run; `+-` over blocks of fluid steps. Of more ranks than the
-machine has cores: times that a core has worked for each.
+20 ms, DEM steps of 0.3 of the critical one, solvers and tolerances of the whole run; `+-` over blocks of fluid steps. Where ranks outnumber
+the cores of the machine their times contain waiting for each other, and tell little; what they send does not.
 """
 SCALED = """What more ranks would take: the time of one rank divided by their number, and the latency and transfer of the messages, operations and bytes
 counted on the most ranks that were run. A rank has two neighbours along the hole however many there are, so that they stay as they are. Not in it are
