@@ -37,8 +37,8 @@ def limit_sentence(name, case):
     if not parts:
         return f"{name}: fix timestep/limit has said nothing of the DEM step."
     above = sum(part > 1 for part in parts)
-    return (f"{name}: the DEM step was at most {max(parts):.3g} of the critical one; of the {len(parts)} times that fix timestep/limit spoke of it, it was above "
-            f"1 in {above}. Energy begins to grow at 1.1 to 1.45.")
+    return (f"{name}: the DEM step was at most {max(parts):.3g} of the critical one; of the {len(parts)} times that fix timestep/limit spoke of it, "
+            f"it was above 1 in {above}. Energy begins to grow at 1.1 to 1.45.")
 
 
 def balance_of(row):

@@ -18,9 +18,9 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("ECCENTRA_BUILD", ROOT / "build"))
 sys.path.insert(0, str(ROOT / "scripts"))
-from study import (annulus_scene, charts, choice, cohesion, convergence, figures, frames, grain_shapes, ladders, level_study, levels,  # noqa: E402
-                   loop_data, measures, page_parts, patch_walls, power, programs, runs, scene_bed, scene_grains, section, shape_levels, tables, timing, truth_chart,
-                   user_scene, user_study, wedge)
+from study import (annulus_scene, charts, choice, cohesion, convergence, figures, frames, grain_shapes, ladders, level_study, levels, loop_data,  # noqa: E402
+                   measures, page_parts, patch_walls, power, programs, runs, scene_bed, scene_grains, section, shape_levels, tables, timing,
+                   truth_chart, user_scene, user_study, wedge)
 from study.commands import creeping_drag  # noqa: E402
 
 
@@ -957,7 +957,8 @@ class Page(unittest.TestCase):
             for part in ("run S1", "cost"):
                 (root / "full-scene" / "results.md").write_text(page_parts.page_of("full-scene", {part: f"from {part}"}))
                 self.assertEqual(subprocess.run(script, capture_output=True).returncode, 0)
-            self.assertTrue((root / "docs" / "results.md").read_text().endswith(page_parts.page_of("full-scene", {"run S1": "from run S1", "cost": "from cost"})))
+            both_parts = page_parts.page_of("full-scene", {"run S1": "from run S1", "cost": "from cost"})
+            self.assertTrue((root / "docs" / "results.md").read_text().endswith(both_parts))
 
 
 if __name__ == "__main__":
