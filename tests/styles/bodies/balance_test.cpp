@@ -70,8 +70,9 @@ void fill(LiggghtsSession& session) {
   int n = 0;
   for (int a = 0; a < along; ++a)
     for (int b = 0; b < across; ++b, ++n) {
+      const int layer = a / 8;
       Start start;
-      start.position = Eigen::Vector3d(-0.094 + 0.0085 * (a % 8), (b - 1) * 9e-3, -0.094 + 9e-3 * (a / 8));
+      start.position = Eigen::Vector3d(-0.094 + 0.0085 * (a % 8), (b - 1) * 9e-3, -0.094 + 9e-3 * layer);
       start.velocity = Eigen::Vector3d(1, 0, 0) + 0.1 * Eigen::Vector3d(normal(random), normal(random), normal(random));
       start.orientation =
           Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
