@@ -14,6 +14,7 @@ struct Communication {
   double operations = 0; ///< of all ranks, in which this one took part: sums, gatherings, barriers
   double bytes = 0;      ///< of the messages, and of what was handed to the operations
 
+  /// Number by number.
   Communication& operator+=(const Communication& more) {
     waited += more.waited;
     messages += more.messages;
@@ -21,6 +22,7 @@ struct Communication {
     bytes += more.bytes;
     return *this;
   }
+  /// What was counted since `less` was.
   Communication operator-(const Communication& less) const {
     return {waited - less.waited, messages - less.messages, operations - less.operations, bytes - less.bytes};
   }
