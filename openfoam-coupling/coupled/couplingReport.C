@@ -356,7 +356,7 @@ void couplingReport::printSent() const {
   part("; fluid ", total_.fluid);
   part("; exchange ", total_.exchange);
   part("; link ", total_.link);
-  if (Pstream::master() && Pstream::nProcs() > 1)
+  if (Pstream::master() && (Pstream::nProcs() > 1 || demLoad_.ranks() > 1))
     std::printf("sent by a rank in a coupling step, mean: %s\n", line.str().c_str());
 }
 

@@ -16,6 +16,8 @@ class LoadSums {
   void add(const CouplingStep& coupling_step);
   /// One line with a line end: ranks; fullest and busiest rank over the mean. Empty before the first interval.
   std::string table() const;
+  /// Of DEM.
+  std::int64_t ranks() const { return ranks_; }
 
  private:
   int intervals_ = 0;

@@ -5,7 +5,6 @@
 // on five ranks.
 #include "link/lane_sides.h"
 #include "link/socket/keys.h"
-#include "link/start_mpi.h"
 
 #include <gtest/gtest.h>
 #include <mpi.h>
@@ -333,12 +332,4 @@ TEST(RankConnections, AnswerToAnotherCouplingStepIsRefused) {
         LoneFluid::answer(*fluid.connection, 2);
       },
       "another question");
-}
-
-int main(int argc, char** argv) {
-  eccentra::link::start_mpi(&argc, &argv);
-  ::testing::InitGoogleTest(&argc, argv);
-  const int failed = RUN_ALL_TESTS();
-  MPI_Finalize();
-  return failed;
 }

@@ -4,7 +4,6 @@
 // one takes its time. Run on four ranks.
 #include "link/socket/fluid_server.h"
 #include "link/socket/socket_peer.h"
-#include "link/start_mpi.h"
 
 #include <gtest/gtest.h>
 #include <mpi.h>
@@ -91,12 +90,4 @@ TEST(Waiting, CostsNoProcessorTime) {
   EXPECT_LT(cpu_seconds() - cpu, kAwake * wall) << "of " << wall << " s, rank " << rank;
   EXPECT_GT(wall, kCouplingSteps * std::chrono::duration<double>(kPause).count());
   MPI_Comm_free(&side);
-}
-
-int main(int argc, char** argv) {
-  eccentra::link::start_mpi(&argc, &argv);
-  ::testing::InitGoogleTest(&argc, argv);
-  const int failed = RUN_ALL_TESTS();
-  MPI_Finalize();
-  return failed;
 }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Messages, operations and bytes are counted as they were sent, on two ranks; waiting is timed.
 #include "link/communication.h"
-#include "link/start_mpi.h"
 
 #include <gtest/gtest.h>
 #include <mpi.h>
@@ -104,12 +103,4 @@ TEST(MpiCounters, WaitingForALateRankIsTimed) {
   });
   if (my_rank() == 0)
     EXPECT_GT(waiting.waited, 0.9 * std::chrono::duration<double>(kLate).count());
-}
-
-int main(int argc, char** argv) {
-  eccentra::link::start_mpi(&argc, &argv);
-  ::testing::InitGoogleTest(&argc, argv);
-  const int failed = RUN_ALL_TESTS();
-  MPI_Finalize();
-  return failed;
 }

@@ -165,7 +165,8 @@ class FixBalanceBodies : public Fix {
   }
 
   /// In the buffers of migration, for the largest body of this rank: who keeps records of contacts makes room for them
-  /// before each exchange of a run, but after this one. What goes into a restart file is as long, to a word.
+  /// before each exchange of a run, but after this one. The records of a restart file are theirs; what else travels is
+  /// short, and LIGGGHTS has room for a thousand numbers more.
   void make_room() const {
     int most = 0;
     for (int i = 0; i < atom->nlocal; ++i) {

@@ -139,9 +139,11 @@ def main():
         return 0
 
     found = {key: results[job.key()] for key, job in jobs.items() if runs.good(results[job.key()])}
-    failed = [f"{job.name}: {results[job.key()].get('failed', 'not run')}" for key, job in jobs.items() if key not in found]
+    failed = [f"{job.name}: {results[job.key()]['failed']}" for job in jobs.values() if "failed" in results[job.key()]]
+    missing = [job.name for key, job in jobs.items() if key not in found and "failed" not in results[job.key()]]
     lines = ["## What the steps of the whole scene cost\n", HEAD, tables.publish(words, "cost", "Time:", COST_HEADER, cost_rows(found)),
              tables.publish(words, "sent", "Sent by a rank in a fluid step with its DEM steps:", SENT_HEADER, sent_rows(found)),
-             SCALED, tables.publish(words, "scaled", "More ranks:", SCALED_HEADER, scaled_rows(found))]
+             SCALED, tables.publish(words, "scaled", "More ranks:", SCALED_HEADER, scaled_rows(found)),
+             *([f"Not run: {'; '.join(missing)}.\n"] if missing else [])]
     return tables.finish(words, {"cost": lines}, failed, f"{BLOCKS * BLOCK} coupled fluid steps each after {STARTING} of the fluid alone and {LEFT_OUT} "
                          "coupled ones, one run at a time", "wall seconds times the share of the cores that the run had")
