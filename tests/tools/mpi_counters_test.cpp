@@ -85,7 +85,7 @@ TEST(MpiCounters, OperationsCountWhatEachRankHandsOver) {
 
   const Communication gathered = counted([&] {
     MPI_Allgather(out.data(), kCount, MPI_DOUBLE, all.data(), kCount, MPI_DOUBLE, MPI_COMM_WORLD);
-    MPI_Allgather(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, all.data(), kCount, MPI_DOUBLE, MPI_COMM_WORLD);
+    MPI_Allgather(MPI_IN_PLACE, kCount, MPI_DOUBLE, all.data(), kCount, MPI_DOUBLE, MPI_COMM_WORLD);
     MPI_Alltoallv(MPI_IN_PLACE, nullptr, nullptr, MPI_DATATYPE_NULL, all.data(), counts.data(), begins.data(),
                   MPI_DOUBLE, MPI_COMM_WORLD);
   });
