@@ -4,6 +4,7 @@
 import re
 
 MARK = "<!-- {}: {} -->"  # study, part: stands before the part
+HEAD = "head"  # of the parts: words common to all
 
 
 def parts_of(study, page):

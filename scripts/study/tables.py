@@ -63,7 +63,7 @@ def called(script, words):
 
 def made(script, settings):
     """When, on what and with which settings something was measured."""
-    model = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")),
+    model = next((line.split(":", 1)[1].strip() for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("model name")),
                  platform.machine())
     load = os.getloadavg()[0]
     return (f"Made by `{called(script, sys.argv[1:])}` on {datetime.date.today().isoformat()}, {os.cpu_count()} cores ({model}), "
@@ -72,13 +72,14 @@ def made(script, settings):
 
 def finish(chosen, page, failed, *settings):
     """Writes results.md with how it was made, says what is there and what failed; the exit status. chosen: the options. page: lines, or
-    {part: lines} of the parts that this call makes of a page whose other parts stay."""
+    {part: lines} of the parts that this call makes of a page whose other parts stay; the part HEAD, common to them, was not made by one call."""
     study, target = pathlib.Path(sys.argv[0]).name, chosen.out / "results.md"
     said = made(f"scripts/{study}", "; ".join([*settings[:1], chosen.store.account(), *settings[1:]]))
     ended = lambda lines: "\n".join(lines) + f"\n*{said}*\n"
     if isinstance(page, dict):
         standing = target.read_text() if target.is_file() else ""
-        target.write_text(page_parts.renewed(study, standing, page_parts.page_of(study, {part: ended(lines).strip("\n") for part, lines in page.items()})))
+        texts = {part: ("\n".join(lines) if part == page_parts.HEAD else ended(lines)).strip("\n") for part, lines in page.items()}
+        target.write_text(page_parts.renewed(study, standing, page_parts.page_of(study, texts)))
     else:
         target.write_text(ended(page))
     print(f"written to {chosen.out}: {', '.join(sorted(file.name for file in chosen.out.iterdir() if file.is_file()))}")

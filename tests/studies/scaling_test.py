@@ -9,7 +9,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "scripts"))
-from study import full_report, full_study, page_parts, scaling  # noqa: E402
+from study import full_report, full_study, page_parts, scaling, tables  # noqa: E402
 from study.commands import full_scene  # noqa: E402
 
 SAID = """cost by part, mean over 2 rank(s)
@@ -59,6 +59,18 @@ class Parts(unittest.TestCase):
         self.assertEqual(again, both.replace("first", "new"))
         self.assertEqual(page_parts.renewed("x", again, "no part\n"), "no part\n")
         self.assertEqual(page_parts.parts_of("y", again), {})
+
+    def test_a_part_says_how_it_was_made_but_for_the_head(self):
+        with tempfile.TemporaryDirectory() as folder:
+            chosen = types.SimpleNamespace(out=pathlib.Path(folder), store=types.SimpleNamespace(account=lambda: "no runs"))
+            study = pathlib.Path(sys.argv[0]).name
+            for part in ("figure 7", "figure 10"):
+                self.assertEqual(tables.finish(chosen, {page_parts.HEAD: ["## All\n"], part: [f"## {part}\n"]}, [], f"{part} alone"), 0)
+            parts = page_parts.parts_of(study, (chosen.out / "results.md").read_text())
+            self.assertEqual(parts.pop(page_parts.HEAD), "## All")
+            self.assertEqual(list(parts), ["figure 7", "figure 10"])
+            for part, lines in parts.items():
+                self.assertRegex(lines, rf"(?s)^## {part}\n.*Made by .*; {part} alone; no runs[.][*]$")
 
 
 class Limit(unittest.TestCase):

@@ -5,7 +5,7 @@ import dataclasses
 import pathlib
 import shutil
 
-from .. import charts, figures, ladders, levels, loop_data, options, programs, runs, section, tables
+from .. import charts, figures, ladders, levels, loop_data, options, page_parts, programs, runs, section, tables
 
 RESTITUTION = 0.9
 TABLE_1 = {"sphere 1": 1, "sphere 6": 0.98, "cube 8": 0.91, "cube 27": 0.87, "cube 64": 0.85, "disk 7": 0.68, "disk 19": 0.75,
@@ -28,6 +28,10 @@ SIZES = {
 }
 LADDER_FIGURES = (7, 10, 11, 12, 13, 14)
 ALL = ("table1", "7", "9", "10", "11", "12", "13", "14")
+HEAD = ["## The paper's figures\n",
+        "The concentration is interpolated linearly between two fillings, its error is that of their fluxes alone: where the bed "
+        "begins to move as a whole between two rungs, it says between which, no more. The flux carried at a filling tells more. "
+        "In the charts an arrow means: larger than the filling shown.\n"]
 
 
 def table_1(build, output):
@@ -117,7 +121,7 @@ def main():
     if words.turbulence:
         size = dataclasses.replace(size, turbulence=words.turbulence)
 
-    parts, failed = {}, []
+    parts, failed = {page_parts.HEAD: HEAD}, []
     if "table1" in words.figures:
         parts["table1"] = table_1(words.build, words.out)
     fine = words.out / "disk80.clump"
@@ -130,7 +134,6 @@ def main():
         found = runs.needed(words.store.run_all("time steps", steps.values()), steps)
         critical = {name: result["critical"] for name, result in found.items()}
         climbed = ladders.Ladders(words.store, words.build, size, critical)
-        panels = []
         for number in chosen:
             series = drawn.points(number)
             points = [p for line in series.values() for _, p in line]
@@ -140,13 +143,6 @@ def main():
             if words.plan:
                 continue
             parts[f"figure {number}"] = figure(number, series, climbed, words.out)
-            panels.append(figures.panel(number, series, climbed.values))
-        if panels:
-            charts.write(words.out / "paper.svg", "Concentration at the injected solids flux (arrow: larger than the filling shown)", panels)
-            head = ["## The paper's figures\n", "![all figures](paper.svg)\n",
-                    "The concentration is interpolated linearly between two fillings, its error is that of their fluxes alone: where the bed "
-                    "begins to move as a whole between two rungs, it says between which, no more. The flux carried at a filling tells more.\n"]
-            parts = {"head": head, **parts}
         if "9" in words.figures:
             bad, lines = figure_9(words.store, words.build, size, critical, drawn, words.out)
             failed += bad
@@ -170,5 +166,5 @@ def figure(number, series, climbed, output):
     header, rows = ladders.long_table(series, climbed.values, figures.X[number] + (" or rpm" if number in (13, 14) else ""))
     found, left = figures.finds(number, series, climbed.values), ladders.not_run(series, climbed.values, figures.X[number])
     print(f"Figure {number}: {figures.TITLES[number]}\n\n{tables.text(header, rows)}\nPaper: {figures.SAYS[number]}\nWe find: {found}\n")
-    return [f"## Figure {number}: {figures.TITLES[number]}\n", tables.markdown(header, rows), f"**Paper:** {figures.SAYS[number]}\n",
-            f"**We find:** {found}\n", f"{left}\n"]
+    return [f"## Figure {number}: {figures.TITLES[number]}\n", f"![figure {number}](figure{number}.svg)\n", tables.markdown(header, rows),
+            f"**Paper:** {figures.SAYS[number]}\n", f"**We find:** {found}\n", f"{left}\n"]
