@@ -15,7 +15,7 @@ HEADER = """// SPDX-FileCopyrightText: Eccentra contributors
 """
 CYCLIC = ("inlet  { type cyclic; }", "outlet { type cyclic; }")
 ENDS = {"section": {"U": CYCLIC, "p": CYCLIC},
-        "well": {"U": ("inlet  { type fixedValue; value uniform (0 0 $:scene.velocity); }",
+        "well": {"U": ("inlet  { type interstitialInletVelocity; inletVelocity uniform (0 0 $:scene.velocity); value uniform (0 0 $:scene.velocity); }",
                        "outlet { type inletOutlet; inletValue uniform (0 0 0); value uniform (0 0 $:scene.velocity); }"),
                  "p": ("inlet  { type zeroGradient; }", "outlet { type fixedValue; value uniform 0; }")}}
 TITLES = {"section": "Cuttings in a periodic section of an annulus.", "well": "Cuttings injected into an annulus.",
