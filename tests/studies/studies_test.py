@@ -13,13 +13,14 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("ECCENTRA_BUILD", ROOT / "build"))
 sys.path.insert(0, str(ROOT / "scripts"))
-from study import (annulus_scene, charts, choice, cohesion, convergence, figures, frames, grain_shapes, ladders, level_study, levels, loop_data,  # noqa: E402
-                   measures, page_parts, patch_walls, power, programs, runs, scene_bed, scene_grains, section, shape_levels, tables, timing,
+from study import (annulus_scene, charts, choice, cohesion, convergence, dry, figures, frames, grain_shapes, ladders, level_study, levels,  # noqa: E402
+                   loop_data, measures, page_parts, patch_walls, power, programs, runs, scene_bed, scene_grains, section, shape_levels, tables, timing,
                    truth_chart, user_scene, user_study, wedge)
 from study.commands import creeping_drag  # noqa: E402
 
@@ -161,6 +162,23 @@ class Power(unittest.TestCase):
         self.assertEqual(power.seeds_wanted(values, "true", 12), {"a": 12, "true": 12})
         self.assertEqual(power.seeds_wanted({"a": {1: 3.0}, "true": {1: 3.0}}, "true", 12), {"a": 1, "true": 1})
         self.assertEqual(power.seeds_wanted({"a": {1: 3.0, 2: 3.0}, "true": {1: 0.0, 2: 0.0}}, "true", 12), {"a": 2, "true": 2})
+
+    def test_a_scene_is_run_until_the_errors_or_the_limit(self):
+        self.assertEqual(len(set(dry.SEEDS)), 40)
+        level = lambda name: types.SimpleNamespace(name=name)
+        value = lambda name, seed: (0.8 if name == "C8" else 1) * (9 + 2 * (dry.SEEDS.index(seed) % 2))  # +-10 %: some 12 runs bring it to 3 %
+        for most in (3, 7, 40):
+            study, results = level_study.Study.__new__(level_study.Study), {}
+            study.pilot, study.most = 3, most
+            study.dry = lambda scene, level, seed: types.SimpleNamespace(key=lambda: (level.name, seed))
+            study.store = types.SimpleNamespace(run_all=lambda title, jobs: {job.key(): {"value": value(*job.key())} for job in jobs})
+            study.run_scene("cube", "heap", [level("C8"), level("true")], {}, results)
+            found = [result["value"] for (name, _), result in results.items() if name == "true"]
+            mean, error = measures.mean_and_error(found)
+            if most < 40:
+                self.assertEqual(len(found), most)
+            else:
+                self.assertTrue(7 < len(found) < 40 and error / mean < power.REFERENCE_ERROR, (len(found), error / mean))
 
 
 def quad(a, b, c, d):
@@ -860,6 +878,9 @@ class Scripts(unittest.TestCase):
     def test_bad_words(self):
         for script, words, says in (
                 ("accuracy-cost", ["--seeds", "0"], "--seeds is 0: give 1 to 10"),
+                ("accuracy-cost", ["--most-seeds", "2"], "--most-seeds is 2: give 3 to 40"),
+                ("accuracy-cost", ["--most-seeds", "5", "--seeds", "5"], "--seeds and --most-seeds exclude each other"),
+                ("accuracy-cost", ["--most-seeds", "5", "--quick"], "--most-seeds is not for --quick"),
                 ("accuracy-cost", ["--shape", "cube", "--quick"], "--quick belongs to the study of cubes and disks"),
                 ("accuracy-cost", ["--shape", "cube", "--scene", "in.x"], "--scene needs --measure: a column of the thermo output"),
                 ("accuracy-cost", ["--shape", "cube", "--scene", "/nowhere", "--measure", "v_x"], "--scene /nowhere: No such file"),

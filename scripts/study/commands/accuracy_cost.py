@@ -69,7 +69,7 @@ def check_shape(parser, words):
 def answer(words):
     """The study of a user's shape."""
     names = [words.user_scene.script.name] if words.user_scene else words.scenes or ["drum"]
-    seeds = (words.seeds, words.seeds) if words.seeds else (PILOT, MOST_SEEDS)
+    seeds = (words.seeds, words.seeds) if words.seeds else (PILOT, words.most_seeds or MOST_SEEDS)
     study = user_study.UserStudy(words.store, words.build, words.ladder, words.user_scene, names, seeds, words.within)
     failed = study.run()
     if words.plan:
@@ -103,12 +103,20 @@ def main():
                         "machine: tables and charts use these times then")
     parser.add_argument("--seeds", type=int, help=f"runs of each level in each scene, 1 to {len(section.SEEDS)} (default: by size; the standard "
                         "and the full size add seeds in dry scenes until the errors are small enough)")
+    parser.add_argument("--most-seeds", type=int, metavar="N", help="up to which seeds are added in dry scenes, "
+                        f"{PILOT} to {len(dry.SEEDS)} (default: 10; --full 20; --shape {MOST_SEEDS})")
     parser.add_argument("--rounding", type=float, help="of the body with true faces, the reference: radius of its corners over half its smallest "
                         f"extent (default: {levels.ROUNDING['cube']} of the cube, {levels.ROUNDING['disk']} of the disk)")
 
     def check(words):
         if words.seeds is not None and not 1 <= words.seeds <= len(section.SEEDS):
             parser.error(f"--seeds is {words.seeds}: give 1 to {len(section.SEEDS)}")
+        if words.most_seeds is not None and not PILOT <= words.most_seeds <= len(dry.SEEDS):
+            parser.error(f"--most-seeds is {words.most_seeds}: give {PILOT} to {len(dry.SEEDS)}")
+        if words.most_seeds is not None and words.seeds is not None:
+            parser.error("--seeds and --most-seeds exclude each other: a number of runs, or as many as the errors need")
+        if words.most_seeds is not None and words.quick:
+            parser.error("--most-seeds is not for --quick, which adds no seeds: leave one of them out")
         if words.rounding is not None and not levels.MIN_ROUNDING <= words.rounding <= levels.MAX_ROUNDING:
             parser.error(f"--rounding is {words.rounding}: give {levels.MIN_ROUNDING} to {levels.MAX_ROUNDING:g}")
         if words.shape is not None:
@@ -135,6 +143,8 @@ def main():
     if words.shape is not None:
         return answer(words)
     chosen = words.size
+    if words.most_seeds:
+        chosen = dataclasses.replace(chosen, seeds=min(chosen.seeds, words.most_seeds), most_seeds=words.most_seeds)
     if words.inclinations:
         chosen = dataclasses.replace(chosen, points=tuple(p for p in chosen.points if p[0] in words.inclinations))
     if words.velocities:
