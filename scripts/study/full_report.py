@@ -125,7 +125,7 @@ def sentences(name, chosen, rows, pictures, note):
                f"{100 * row['solid_concentration']:.3g} %, where it is densest {densest:.3g} % over {hole.BIN:g} m.")
         behind = developed(pictures[-1])
         if behind:
-            yield (f"{name}: in the bed from {ENTRY:g} m to half of the way to the front {100 * sum(behind) / len(behind):.3g} % of the volume are solid; a "
+            yield (f"{name}: from {ENTRY:g} m to half of the way to the front {100 * sum(behind) / len(behind):.3g} % of the volume are solid; a "
                    "periodic section carries the injected flux at the concentration of figure 7.")
     if row["time"] < chosen.end * (1 - 1e-9):
         yield f"{name}: the run has not come to its end; it is at {row['time']:.3g} of {chosen.end:g} s."

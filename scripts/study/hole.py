@@ -12,7 +12,8 @@ BIN = 0.1  # along the hole [m]
 LAYERS = 40  # across the hole, from the low side
 DENSE = 0.275  # concentration that bounds a bed, as in annulusReport: half of random loose packing
 FRONT = 0.99  # of the solid is behind the front
-FIRST_SHARE = 0.3  # of the run that the speed of the front leaves out
+FIRST_SHARE = 0.3  # of the time until the front is at the outlet, or of the run, that its speed leaves out
+AT_OUTLET = 0.9  # of the hole: what leaves is missing from the solid behind a front that is farther
 
 
 def below(radius, height):
@@ -95,9 +96,9 @@ def reached(rows, length):
 
 
 def front_speed(rows, length):
-    """[m/s] of the line through the places of the front, from FIRST_SHARE of the run on and until it comes to the outlet."""
-    last = rows[-1]["time"] if rows else 0
-    return slope([(row["time"], row["front"]) for row in rows if row["time"] >= FIRST_SHARE * last and row["front"] < 0.97 * length])
+    """[m/s] of the line through the places of the front, without FIRST_SHARE, until it is AT_OUTLET."""
+    last = next((row["time"] for row in rows if row["front"] > AT_OUTLET * length), rows[-1]["time"] if rows else 0)
+    return slope([(row["time"], row["front"]) for row in rows if FIRST_SHARE * last <= row["time"] <= last and row["front"] <= AT_OUTLET * length])
 
 
 def write_csv(path, rows):

@@ -49,6 +49,8 @@ class Along(unittest.TestCase):
         self.assertEqual(hole.front_of(numpy.zeros((0, 3))), 0)
         rows = [{"time": float(t), "front": max(5.0, 0.3 * t) if t < 3 else 0.1 + 0.3 * t} for t in range(11)]
         self.assertAlmostEqual(hole.front_speed(rows, 12), 0.3)
+        leaves = [{"time": float(t), "front": min(0.6 * t, 9 + 0.1 * t, 11.9)} for t in range(61)]  # what leaves is missing behind it
+        self.assertAlmostEqual(hole.front_speed(leaves, 12), 0.6)
 
     def test_a_picture_shows_as_much_as_the_front_has_reached(self):
         self.assertAlmostEqual(hole.reached([{"front": 0.4}, {"front": 1.0}], 12), 1.4)
