@@ -91,8 +91,10 @@ def chart(path, name, rows, pictures, length):
     shown = hole.reached(pictures, length)
     near = [[row for row in p["along"] if row[0] < shown] for p in pictures]
     times, places = [p["time"] for p in pictures], [z for z, _, _ in near[0]]
-    maps = [charts.Map("solid concentration [%]", "time [s]", "along the hole [m]", times, places, [[100 * c for _, c, _ in rows_of] for rows_of in near]),
-            charts.Map("height of the bed [mm]", "time [s]", "along the hole [m]", times, places, [[1e3 * h for _, _, h in rows_of] for rows_of in near])]
+    maps = [charts.Map("solid concentration [%]", "time [s]", "along the hole [m]", times, places, [[100 * c for _, c, _ in rows_of] for rows_of in near])]
+    heights = [[1e3 * h for _, _, h in rows_of] for rows_of in near]
+    if any(max(row) > 0 for row in heights):  # a vertical hole has none
+        maps.append(charts.Map("height of the bed [mm]", "time [s]", "along the hole [m]", times, places, heights))
     line = lambda title, y, points, colour: charts.Panel(title, "time [s]", y, [charts.Series("", points, charts.COLOURS[colour], line=True, marks=False)])
     of = lambda column, factor=1.0: [charts.Point(row["time"], factor * row[column]) for row in rows]
     front = [charts.Point(p["time"], p["front"]) for p in pictures]
