@@ -13,6 +13,7 @@ NOT_RUN = "not run"
 NARROW = 0.02  # fillings that enclose the injected flux are close enough [of the volume]
 INSIDE = 0.25  # of their distance that a further filling keeps from both
 ROOM = 3.0  # standard errors by which two values must differ to be told apart, squared sum
+STEADY = 0.05  # change of a flux, over its value or the injected one, from the first to the second half of the time over which it is a mean
 
 
 @dataclasses.dataclass(frozen=True)
@@ -119,6 +120,7 @@ class Ladders:
         """critical: {level name: critical step}."""
         self.store, self.build, self.size, self.critical = store, build, size, critical
         self.values = {}
+        self.drifts = {}  # {(point, concentration): (change of the flux within the time over which it is a mean, its standard error)}
 
     def job(self, point, rung, seed):
         words = {"inclination": point.inclination, "velocity": point.velocity, "rpm": point.rpm, "seconds": self.size.seconds,
@@ -169,6 +171,7 @@ class Ladders:
                 error = good[0]["mean"]["flux"][1]
             filled = measures.mean_and_error([r["mean"]["concentration"][0] for r in good])[0]
             rungs[point] = sorted([*rungs[point], (filled, flux, error)])
+            self.drifts[point, filled] = measures.mean_of_measured([r["drift"]["flux"] for r in good])
         return ended
 
     def rows(self, points):
@@ -195,6 +198,26 @@ def long_table(series, values, x):
             fluxes = ", ".join(f"{100 * c:.0f} %: {tables.number(1e6 * flux, 2)}" for c, flux, _ in values[p].rungs)
             rows.append([name, "cluster" if math.isnan(at) else f"{at:.4g}", values[p].words(), fluxes])
     return ["", x, "C at the injected flux", "flux at a filling [1e-6 m3/s]"], rows
+
+
+def enclosing(rungs):
+    """The two fillings between which the injected flux lies, or the highest one."""
+    above = next((k for k, (_, flux, _) in enumerate(rungs) if flux >= section.INJECTED), len(rungs))
+    return rungs[max(0, above - 1):above + 1]
+
+
+def not_steady(series, climbed):
+    """Fluxes from which C was taken and which still changed, as a sentence; empty if none did."""
+    moving = []
+    for name, points in series.items():
+        for at, p in points:
+            for filled, flux, _ in enclosing(climbed.values[p].rungs):
+                change, error = climbed.drifts.get((p, filled), (math.nan, math.nan))
+                if abs(change) > max(STEADY * max(abs(flux), section.INJECTED), ROOM * (0 if math.isnan(error) else error)):
+                    of = "" if math.isnan(at) else f" at {at:.4g}"
+                    moving.append(f"{name}{of}, {100 * filled:.0f} %: {tables.number(1e6 * flux, 2)} by {1e6 * change:+.0f}")
+    return (f"Not steady: from the first to the second half of the time over which means were taken, these fluxes [1e-6 m3/s] changed by more than "
+            f"{100 * STEADY:g} % and {ROOM:g} standard errors: {'; '.join(moving)}.") if moving else ""
 
 
 def not_run(series, values, x):

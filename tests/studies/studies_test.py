@@ -312,9 +312,10 @@ class Ladders(unittest.TestCase):
 
             def run_all(self, _title, jobs):
                 self.ran += [job.inputs["rung"] for job in jobs]
-                return {job.key(): {"mean": {"flux": (flux(job.inputs["rung"]), 1e-9), "concentration": (job.inputs["rung"], 0)}} for job in jobs}
+                return {job.key(): {"mean": {"flux": (flux(job.inputs["rung"]), 1e-9), "concentration": (job.inputs["rung"], 0)},
+                                    "drift": {"flux": (changes * flux(job.inputs["rung"]), 1e-9)}} for job in jobs}
 
-        point = ladders.Point(levels.Level("S1", "sphere"), 80, 0.58)
+        point, changes = ladders.Point(levels.Level("S1", "sphere"), 80, 0.58), 0.0
         exact = begins + section.INJECTED / steep
         far = {}
         for refine in (0, 4):
@@ -326,8 +327,14 @@ class Ladders(unittest.TestCase):
             far[refine] = abs(found.value - exact)
             self.assertEqual([filled for filled, *_ in found.rungs], sorted(store.ran))
             self.assertLessEqual(len(store.ran), 3 + refine)
+            self.assertEqual(ladders.not_steady({"a": [(80, point)]}, climbed), "")
         self.assertLess(far[4], ladders.NARROW)
         self.assertLess(far[4], 0.4 * far[0])
+        # A bed that comes to rest or begins to move: of the two fillings about the injected flux the upper one carries enough to be named.
+        changes = -0.4
+        climbed = Made(Reported(), None, ladders.Size(rungs=(0.02, 0.15, 0.25, 0.35), length=0.08, cells="", seconds=1, seeds=1), {})
+        climbed.run([point])
+        self.assertRegex(ladders.not_steady({"a": [(80, point)]}, climbed), r"changed by more than 5 % and 3 .*: a at 80, 25 %: 171 by -68[.]$")
         # Where the first filling carries the flux, nothing lies below it but the empty hole.
         self.assertIsNone(ladders.between([(0.02, 2 * section.INJECTED, 0.0)]))
         self.assertIsNone(ladders.between([(0.02, 0.0, 0.0), (0.35, 0.5 * section.INJECTED, 0.0)]))

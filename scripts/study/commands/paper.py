@@ -164,7 +164,8 @@ def figure(number, series, climbed, output):
     charts.write(output / f"figure{number}.svg", figures.TITLES[number][0].upper() + figures.TITLES[number][1:],
                  [figures.panel(number, series, climbed.values), figures.flux_panel(number, series, climbed.values)], 2)
     header, rows = ladders.long_table(series, climbed.values, figures.X[number] + (" or rpm" if number in (13, 14) else ""))
-    found, left = figures.finds(number, series, climbed.values), ladders.not_run(series, climbed.values, figures.X[number])
+    found = figures.finds(number, series, climbed.values)
+    further = [f"{sentence}\n" for sentence in (ladders.not_steady(series, climbed), ladders.not_run(series, climbed.values, figures.X[number])) if sentence]
     print(f"Figure {number}: {figures.TITLES[number]}\n\n{tables.text(header, rows)}\nPaper: {figures.SAYS[number]}\nWe find: {found}\n")
     return [f"## Figure {number}: {figures.TITLES[number]}\n", f"![figure {number}](figure{number}.svg)\n", tables.markdown(header, rows),
-            f"**Paper:** {figures.SAYS[number]}\n", f"**We find:** {found}\n", f"{left}\n"]
+            f"**Paper:** {figures.SAYS[number]}\n", f"**We find:** {found}\n", *further]
