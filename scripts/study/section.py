@@ -23,6 +23,7 @@ SEEDS = (49979687, 67867967, 86028121, 15485867, 32452867, 49979693, 67867979, 8
 QUANTITIES = {"flux": ("solid flux", 1e-6), "gradient": ("pressure gradient", 1.0), "height": ("height of the solid's centre", 1e-3),
               "concentration": ("solid concentration", 1e-2), "bed": ("bed height (profile)", 1e-3)}
 
+REPORT = 4  # coupling steps from one row of coupling.csv to the next: with the case's 20 half a second has too few to tell a drift by
 DRIFTS = {"flux": "solids_flux", "gradient": "pressure_gradient", "height": "com_y"}  # columns of coupling.csv whose change tells that of a quantity
 # Arguments of fix fluid/force: forces of the sphere of equal volume, and of the real shape.
 FORCES = {"sphere": "drag chien pressure_gradient on drag_torque dennis",
@@ -110,6 +111,7 @@ def section_job(build, name, words, share=0.5, spheres=1, keep=None, tolerances=
     """A run with options of the case's `run` (without --); the result: means over the last `share` of it with their standard
     errors in time and how they drift within it, SI units, the end of the run, time and its parts. `keep`: name under which the case stays in the job's folder;
     `tolerances`: relTol of pressure and velocity in place of the case's."""
+    words = {"report": REPORT, **words}
     described = {key: shape_key(value) if key == "shape" else str(value) for key, value in words.items()}
     inputs = {"what": "section", "case": case_digest(), **described, "share": share, **({"keep": keep} if keep else {}),
               **({"tolerances": tolerances} if tolerances else {})}

@@ -22,7 +22,7 @@ sys.path.insert(0, str(ROOT / "scripts"))
 from study import (annulus_scene, charts, choice, cohesion, convergence, dry, figures, frames, grain_shapes, ladders, level_study, levels,  # noqa: E402
                    loop_data, measures, page_parts, patch_walls, power, programs, runs, scene_bed, scene_grains, section, shape_levels, tables, timing,
                    truth_chart, user_scene, user_study, wedge)
-from study.commands import creeping_drag  # noqa: E402
+from study.commands import accuracy_cost, creeping_drag, paper  # noqa: E402
 
 
 class Measures(unittest.TestCase):
@@ -401,6 +401,11 @@ class Section(unittest.TestCase):
         self.assertIn("pFinal  { $p; relTol 0.25; }", text)
         self.assertIn("UFinal  { $U; relTol 0.125; }", text)
         self.assertNotEqual(job.key(), section.section_job(BUILD, "short", words, keep="ran").key())
+
+    def test_means_are_over_enough_rows_to_tell_a_drift(self):
+        times = [ladders.SHARE * size.seconds for size, _ in paper.SIZES.values()]
+        times += [0.5 * seconds for size in accuracy_cost.SIZES.values() for seconds in size.seconds.values()]
+        self.assertGreaterEqual(round(min(times) / (section.REPORT * section.FLUID_STEP)), 2 * measures.BLOCKS)
 
 
 class Levels(unittest.TestCase):
