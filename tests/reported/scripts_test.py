@@ -22,7 +22,7 @@ STUDIES = {
     "accuracy-cost": (["--bodies", "cube", "--levels", "S1", "--scenes", "heap", "--seeds", "1", "--parts", "levels"], {
         "--bodies": ["disk"], "--levels": ["C8"], "--scenes": ["drum"], "--seeds": ["2"], "--parts": ["levels", "methods"], "--quick": [],
         "--full": [], "--retime": [], "--inclinations": ["0"], "--velocities": ["0.58"], "--rounding": ["0.3"], "--shape": ["disk"],
-        "--scene": ["OTHER_SCENE"], "--measure": ["KinEng"], "--share": ["0"]}, ("--within",)),
+        "--scene": ["OTHER_SCENE"], "--measure": ["KinEng"], "--share": ["0"]}, ("--within", "--most-seeds")),  # of which runs are added after the pilot
     "calibrate-rolling": (["--shape", "cube", "--scene", "drum", "--others", "heap", "--seeds", "2"], {
         "--shape": ["disk"], "--rounding": ["0.3"], "--scene": ["heap"], "--seeds": ["3"], "--range": ["0.1", "0.5"], "--vary": ["mu_s"],
         "--mu-shape": ["0.1"]}, ("--others", "--mine", "--measure", "--share")),  # of runs that a plan cannot name before the fit

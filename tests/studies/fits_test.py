@@ -219,7 +219,7 @@ class CalibrateRolling(unittest.TestCase):
             self.assertGreater(angle[10] - angle[0], 2)  # degrees: without damping its spheres rock on, and the bed lies flatter
 
     def test_bad_words(self):
-        for words, says in ((["--seeds", "1"], "--seeds is 1: give 2 to 20"), (["--scene", "mine"], "--scene mine needs --mine FILE"),
+        for words, says in ((["--seeds", "1"], "--seeds is 1: give 2 to 40"), (["--scene", "mine"], "--scene mine needs --mine FILE"),
                             (["--scene", "ocean"], "invalid choice: 'ocean'"), (["--range", "0.5", "0.1"], "--range is 0.5 0.1: give two rising numbers"),
                             (["--mu-shape", "0.1"], "--mu-shape is 0.1: give a number from 0 on, with --vary mu_s alone"),
                             (["--mine", self.SCRIPT], "--mine FILE and --measure COLUMN belong together"),
