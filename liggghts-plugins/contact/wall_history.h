@@ -61,14 +61,6 @@ class WallHistory {
   /// Of local atom i.
   Entries& operator[](int i) { return of_atom_[i]; }
   const Entries& operator[](int i) const { return of_atom_[i]; }
-  /// Asks for the contacts of atom i ahead of their use: they lie anywhere in the memory.
-  void prefetch(int i) const {
-    const Entries& entries = of_atom_[i];
-    if (entries.empty())
-      return;
-    __builtin_prefetch(&entries.front());
-    __builtin_prefetch(&entries.front().rolling);
-  }
   /// Atom `from` takes the place of atom `to`.
   void move(int from, int to) {
     if (from != to)

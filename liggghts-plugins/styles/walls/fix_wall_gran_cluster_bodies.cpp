@@ -15,13 +15,6 @@
 
 namespace eccentra::styles {
 
-namespace {
-
-/// So many bodies ahead their contacts are asked for.
-constexpr std::size_t prefetched_ahead = 4;
-
-} // namespace
-
 void FixWallGranCluster::cluster_forces() {
   const contact::PlainWall wall(*arguments_.surface);
   int m = 0;
@@ -32,10 +25,7 @@ void FixWallGranCluster::cluster_forces() {
     begin_groups();
     m = 0;
   };
-  for (std::size_t n = 0; n < near_clusters_.size(); ++n) {
-    const int i = near_clusters_[n];
-    if (n + prefetched_ahead < near_clusters_.size())
-      history_.prefetch(near_clusters_[n + prefetched_ahead]);
+  for (const int i : near_clusters_) {
     double normal[3], from[3];
     const contact::SurfaceSpheres& spheres = bodies_->shapes().surface(bodies_->shape_id(i));
     if (hits_.size() < static_cast<std::size_t>(spheres.padded))
