@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Starts MPI around GoogleTest for programs on several ranks without LIGGGHTS.
+// Starts MPI around GoogleTest for programs that run on several ranks or run LIGGGHTS.
 #include "link/start_mpi.h"
 
 #include <gtest/gtest.h>

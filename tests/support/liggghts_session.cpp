@@ -1,14 +1,11 @@
 // SPDX-FileCopyrightText: Eccentra contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Starts MPI around GoogleTest for programs that run LIGGGHTS, and implements LiggghtsSession.
+// Implements LiggghtsSession.
 #include "support/liggghts_session.h"
 
-#include "link/start_mpi.h"
 #include "styles/entry/style_registry.h"
 
 #include "comm.h"
-
-#include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <sstream>
@@ -75,13 +72,3 @@ int LiggghtsSession::ranks() const {
 }
 
 } // namespace eccentra::test
-
-int main(int argc, char** argv) {
-  eccentra::link::start_mpi(&argc, &argv);
-  ::testing::InitGoogleTest(&argc, argv);
-  int failed = RUN_ALL_TESTS();
-  // Every rank fails if one does.
-  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
-  MPI_Finalize();
-  return failed;
-}
