@@ -40,18 +40,22 @@ FixRollingLimited* FixRollingLimited::find(LAMMPS_NS::LAMMPS* lmp) {
 
 FixRollingLimited* FixRollingLimited::make_last(LAMMPS_NS::LAMMPS* lmp) {
   LAMMPS_NS::Modify& modify = *lmp->modify;
-  if (!find(lmp)) {
-    std::string arguments[] = {kId, "all", kStyle};
-    char* arg[] = {arguments[0].data(), arguments[1].data(), arguments[2].data()};
-    modify.add_fix(3, arg);
+  if (FixRollingLimited* const present = find(lmp)) {
+    if (modify.fix[modify.nfix - 1] == present)
+      return present;
+    // Made anew, not moved: the atoms' arrays know the fixes that they belong to by their places in the list, which
+    // LIGGGHTS corrects where a fix goes and nowhere else.
+    modify.delete_fix(kId);
   }
-  for (int k = 0; k + 1 < modify.nfix; ++k) {
-    if (std::strcmp(modify.fix[k]->id, kId) == 0) {
-      std::swap(modify.fix[k], modify.fix[k + 1]);
-      std::swap(modify.fmask[k], modify.fmask[k + 1]);
-    }
-  }
+  std::string arguments[] = {kId, "all", kStyle};
+  char* arg[] = {arguments[0].data(), arguments[1].data(), arguments[2].data()};
+  modify.add_fix(3, arg);
   return find(lmp);
+}
+
+// Nothing in it waits for the set-up of a run: made anew, it is no new fix to those who ask what has changed.
+void FixRollingLimited::post_create() {
+  just_created = 0;
 }
 
 int FixRollingLimited::setmask() {

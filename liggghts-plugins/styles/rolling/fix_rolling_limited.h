@@ -21,13 +21,14 @@ class FixRollingLimited : public LAMMPS_NS::Fix {
 
   /// The scene's instance, or null if no pair model made one.
   static FixRollingLimited* find(LAMMPS_NS::LAMMPS* lmp);
-  /// The scene's instance, made if need be, and last in the order of fixes: it needs the assembled torque of all
-  /// others.
+  /// The scene's instance, made, or made anew, where it is not the last of all fixes: it needs the assembled torque of
+  /// the others. What find() has given before is void then.
   static FixRollingLimited* make_last(LAMMPS_NS::LAMMPS* lmp);
 
   contact::RollingLimiter& limiter() { return limiter_; }
 
   int setmask() override;
+  void post_create() override;
   void init() override;
   void setup_pre_force(int vflag) override;
   void setup(int vflag) override;
