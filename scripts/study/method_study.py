@@ -4,7 +4,7 @@
 import dataclasses
 import math
 
-from . import charts, measures, runs, section, tables
+from . import charts, choice, measures, runs, section, tables
 
 LENGTH, CONCENTRATION, VELOCITY = 0.15, 0.05, 0.58
 TURBULENT = 1.165  # velocity at which the wide gap is turbulent (docs/turbulence.md) [m/s]
@@ -41,7 +41,8 @@ class Family:
 
 def _fluid_steps(momentum):
     return {f"{step * 1e3:g} ms{'' if momentum == 'semiImplicit' else ' explicit'}":
-            {"fluid_step": step, "interval": max(1, round(step / DEM_STEP)), "momentum": momentum, "report": max(1, round(0.1 / step))}
+            {"fluid_step": step, "interval": max(1, round(step / DEM_STEP)), "momentum": momentum,
+             "report": max(1, round(section.REPORT * section.FLUID_STEP / step))}
             for step in (0.02, 0.01, 0.005, 0.002, 0.001)}
 
 
@@ -97,6 +98,14 @@ def _plain_words(rows):
             f"A deviation is known to {100 * worst['deviation'][1]:.1f} % here.\n")
 
 
+def _not_steady(rows):
+    """What still changed while means were taken, as a sentence; empty where all are steady."""
+    moving = [f"{row['name']} {100 * change:+.1f} +- {100 * error:.1f} %" for row in rows for change, error in (row["drift"],)
+              if abs(change) > max(choice.DRIFT, choice.SURE * error)]
+    return (f"Not steady: from the first to the second half of the time over which means were taken, the pressure gradient changed by more than "
+            f"{100 * choice.DRIFT:g} % and {choice.SURE:g} standard errors: {', '.join(moving)}.\n") if moving else ""
+
+
 class Study:
     def __init__(self, store, build, size, output):
         self.store, self.build, self.size, self.output = store, build, size.methods, output
@@ -131,19 +140,21 @@ class Study:
             failed = next((r["failed"] for r in every if "failed" in r), "")
             if failed:
                 self.failures.append(f"{family} {name}, {inclination} deg: {failed}")
-            values = {}
+            values, drifts = {}, {}
             for quantity in RESULTS:
                 found = [r["mean"].get(quantity, UNKNOWN) for r in good]
                 mean, error = measures.mean_and_error([value for value, _ in found])
                 if len(found) == 1:  # one seed: its error in time
                     error = found[0][1]
                 values[quantity] = (mean, error)
-            means[name] = (values, measures.mean_and_error([r["cpu"] for r in good])[0], failed)
-        for name, (values, cpu, failed) in means.items():
+                drift = measures.mean_of_measured([r["drift"].get(quantity, UNKNOWN) for r in good]) if good and mean else UNKNOWN
+                drifts[quantity] = tuple(value / abs(mean) for value in drift)
+            means[name] = (values, drifts, measures.mean_and_error([r["cpu"] for r in good])[0], failed)
+        for name, (values, drifts, cpu, failed) in means.items():
             for quantity in RESULTS:
                 off, error = measures.deviation(*values[quantity], *means[reference][0][quantity])
-                self.rows.append({"inclination": inclination, "family": family, "name": name, "quantity": quantity,
-                                  "value": values[quantity], "deviation": (math.nan, math.nan) if name == reference else (off, error),
+                self.rows.append({"inclination": inclination, "family": family, "name": name, "quantity": quantity, "value": values[quantity],
+                                  "drift": drifts[quantity], "deviation": (math.nan, math.nan) if name == reference else (off, error),
                                   "reference": name == reference, "cpu": cpu, "failed": failed})
 
     def of(self, inclination, family, quantity):
@@ -162,7 +173,7 @@ class Study:
                      for g, f, h in zip(gradient, flux, height)]
             title = f"{inclination} degrees, {family.velocity:g} m/s: {family.what}"
             lines += [title, "", tables.text(header, table)]
-            page += [f"### {title}\n", tables.markdown(header, table), _plain_words(gradient)]
+            page += [f"### {title}\n", tables.markdown(header, table), _plain_words(gradient), _not_steady(gradient)]
             panels.append(self.panel(inclination, name, gradient, family.reference))
         if missing:
             page.append(f"Not run: {'; '.join(missing)}.\n")

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("ECCENTRA_BUILD", ROOT / "build"))
@@ -103,7 +104,11 @@ class VerticalHole(unittest.TestCase):
                                          pathlib.Path(folder))
             self.assertEqual(methods.run(), [])
             self.assertTrue(all(math.isnan(row["value"][0]) == (row["quantity"] == "height") for row in methods.rows))
-            self.assertTrue(methods.write())
+            self.assertNotIn("Not steady", "".join(methods.write()))  # 1 +- 2 of 300 Pa/m
+            with unittest.mock.patch.dict(Reported.RESULT, drift={"gradient": (-30.0, 2.0)}):
+                methods = method_study.Study(Reported(), BUILD, size, pathlib.Path(folder))
+                methods.run()
+                self.assertIn("the pressure gradient changed by more than 2 % and 3 standard errors: centre -10.0 +- 0.7 %, ", "".join(methods.write()))
 
 
 class Prediction(unittest.TestCase):
