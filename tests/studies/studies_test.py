@@ -891,6 +891,7 @@ class Scripts(unittest.TestCase):
         for script, words, says in (
                 ("accuracy-cost", ["--seeds", "0"], "--seeds is 0: give 1 to 10"),
                 ("accuracy-cost", ["--most-seeds", "2"], "--most-seeds is 2: give 3 to 40"),
+                ("accuracy-cost", ["--most-seeds", "9", "--full"], "--most-seeds is 9: give 10 to 40"),
                 ("accuracy-cost", ["--most-seeds", "5", "--seeds", "5"], "--seeds and --most-seeds exclude each other"),
                 ("accuracy-cost", ["--most-seeds", "5", "--quick"], "--most-seeds is not for --quick"),
                 ("accuracy-cost", ["--shape", "cube", "--quick"], "--quick belongs to the study of cubes and disks"),

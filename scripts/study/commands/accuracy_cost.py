@@ -104,15 +104,16 @@ def main():
     parser.add_argument("--seeds", type=int, help=f"runs of each level in each scene, 1 to {len(section.SEEDS)} (default: by size; the standard "
                         "and the full size add seeds in dry scenes until the errors are small enough)")
     parser.add_argument("--most-seeds", type=int, metavar="N", help="up to which seeds are added in dry scenes, "
-                        f"{PILOT} to {len(dry.SEEDS)} (default: 10; --full 20; --shape {MOST_SEEDS})")
+                        f"{PILOT} to {len(dry.SEEDS)}, with --full from {SIZES['full'].seeds} on (default: 10; --full 20; --shape {MOST_SEEDS})")
     parser.add_argument("--rounding", type=float, help="of the body with true faces, the reference: radius of its corners over half its smallest "
                         f"extent (default: {levels.ROUNDING['cube']} of the cube, {levels.ROUNDING['disk']} of the disk)")
 
     def check(words):
         if words.seeds is not None and not 1 <= words.seeds <= len(section.SEEDS):
             parser.error(f"--seeds is {words.seeds}: give 1 to {len(section.SEEDS)}")
-        if words.most_seeds is not None and not PILOT <= words.most_seeds <= len(dry.SEEDS):
-            parser.error(f"--most-seeds is {words.most_seeds}: give {PILOT} to {len(dry.SEEDS)}")
+        fewest = SIZES["full"].seeds if words.full else PILOT  # each level has so many before any is added
+        if words.most_seeds is not None and not fewest <= words.most_seeds <= len(dry.SEEDS):
+            parser.error(f"--most-seeds is {words.most_seeds}: give {fewest} to {len(dry.SEEDS)}")
         if words.most_seeds is not None and words.seeds is not None:
             parser.error("--seeds and --most-seeds exclude each other: a number of runs, or as many as the errors need")
         if words.most_seeds is not None and words.quick:
@@ -144,7 +145,7 @@ def main():
         return answer(words)
     chosen = words.size
     if words.most_seeds:
-        chosen = dataclasses.replace(chosen, seeds=min(chosen.seeds, words.most_seeds), most_seeds=words.most_seeds)
+        chosen = dataclasses.replace(chosen, most_seeds=words.most_seeds)
     if words.inclinations:
         chosen = dataclasses.replace(chosen, points=tuple(p for p in chosen.points if p[0] in words.inclinations))
     if words.velocities:
