@@ -814,9 +814,13 @@ class Scripts(unittest.TestCase):
             self.assertTrue((pathlib.Path(folder) / "truth-cube.svg").is_file())
             self.assertRegex((pathlib.Path(folder) / "results.md").read_text(), r"\| slope of a heap \| [\d.]+ degrees \|")
             self.assertIn("the reference smooth 0.15 gives", (pathlib.Path(folder) / "levels.txt").read_text())
+            page = pathlib.Path(folder) / "results.md"
+            page.write_text(page.read_text() + "\n<!-- accuracy-cost: methods -->\n\nOf another call.\n")
             again = run("accuracy-cost", *words)
             self.assertNotIn(" s of CPU |", again.stderr)  # nothing is repeated
             self.assertEqual(again.returncode, 0)
+            self.assertRegex(page.read_text(), r"(?s)^<!-- accuracy-cost: levels -->.*slope of a heap.*"
+                             r"<!-- accuracy-cost: methods -->\n\nOf another call[.]\n$")
             timed = run("accuracy-cost", *words, "--retime")
             self.assertEqual(timed.stderr.count(", for its time: "), 2, timed.stderr)  # a run for each level, and no other
             self.assertEqual(timed.stderr.count(" s of CPU |"), 2)

@@ -151,18 +151,16 @@ def main():
     if words.velocities:
         chosen = dataclasses.replace(chosen, points=tuple(p for p in chosen.points if p[1] in words.velocities))
 
-    failed, page = [], []
-    parts = []
+    studies = {}
     if "levels" in words.parts:
-        parts.append(level_study.Study(words.store, words.build, chosen, words.bodies, words.scenes, words.levels, words.seeds,
-                                       words.out, words.retime, words.rounding))
+        studies["levels"] = level_study.Study(words.store, words.build, chosen, words.bodies, words.scenes, words.levels, words.seeds,
+                                              words.out, words.retime, words.rounding)
     if "methods" in words.parts:
-        parts.append(method_study.Study(words.store, words.build, chosen, words.out))
-    for study in parts:
+        studies["methods"] = method_study.Study(words.store, words.build, chosen, words.out)
+    failed, page = [], {}
+    for part, study in studies.items():
         failed += study.run()
-        page += study.write() if not words.plan else []
+        page[part] = [] if words.plan else study.write()
     if words.plan:
         return 1 if failed else 0
-    if "methods" not in words.parts:
-        page.append("Methods of the coupling: not part of this call (`--parts methods`).\n")
     return tables.finish(words, page, failed, f"{words.jobs} runs at a time, one core each", "times are CPU seconds of a run")
