@@ -16,14 +16,16 @@ using namespace eccentra::test;
 
 namespace {
 
-constexpr int kSpheres = 36;
+constexpr int kSpheres = 6 * 3 * 2;
 constexpr double kMark = 1000; ///< of an atom: this and its tag
 
 /// Spheres that fly about in a box that is periodic along x: they are sorted, and change ranks, while they run.
 std::string flying_spheres(const RollingScene& scene) {
   std::string text = rolling_scene(scene);
-  for (int k = 0; k < kSpheres; ++k)
-    text += sphere_at({-0.03 + 0.01 * (k % 6), -0.01 + 0.01 * (k / 6 % 3), 0.02 + 0.02 * (k / 18)});
+  for (int x = 0; x < 6; ++x)
+    for (int y = 0; y < 3; ++y)
+      for (int z = 0; z < 2; ++z)
+        text += sphere_at({-0.03 + 0.01 * x, -0.01 + 0.01 * y, 0.02 + 0.02 * z});
   return text + spheres_done();
 }
 
