@@ -136,8 +136,8 @@ TEST(Reported, delete_atoms) {
     std::vector<double> of_way[2];
     for (const bool compress : {false, true}) {
       write_here("in.script", start + "delete_atoms group lonely compress " + (compress ? "yes" : "no") + "\nrun 8\n");
-      const ProgramResult result = run_program(
-          {"mpirun", "--oversubscribe", "-np", ranks, program("eccentra-dem"), "-in", "in.script", "-log", "none"});
+      const ProgramResult result = run_program({"mpirun", "--oversubscribe", "--bind-to", "none", "-np", ranks,
+                                                program("eccentra-dem"), "-in", "in.script", "-log", "none"});
       ASSERT_EQ(result.status, 0) << result.output;
       of_way[compress] = columns(result.output, 12008);
       const std::vector<double> first = columns(result.output, 12000);

@@ -133,8 +133,8 @@ TEST(Reported, cluster_in_no_integrator) {
   expect_refused(run_script(still + one_body), {"atom 1", "moved by no fix", "nve/cluster"});
   // A group that the body is not in; two ranks say it once.
   write_here("in.script", scene_with_one_body() + "group none id 999\nunfix move\nfix move none nve/cluster\nrun 1\n");
-  const ProgramResult two = run_program(
-      {"mpirun", "--oversubscribe", "-np", "2", program("eccentra-dem"), "-in", "in.script", "-log", "none"});
+  const ProgramResult two = run_program({"mpirun", "--oversubscribe", "--bind-to", "none", "-np", "2",
+                                         program("eccentra-dem"), "-in", "in.script", "-log", "none"});
   expect_refused(two, {"atom 1", "moved by no fix"});
   // Held by fix freeze, or without a step, it is as it was meant.
   Session session(scene_with_one_body() + "unfix move\nrun 0\nfix hold all freeze\nrun 1\n");
